@@ -1,0 +1,1 @@
+//! Every transcendental function that the crate uses, in one place.

@@ -1,0 +1,1 @@
+//! Solid angle and vector moment of spherical polygons.

@@ -1,0 +1,1 @@
+//! Voronoi diagrams of the sphere and of a hemisphere.

@@ -1,0 +1,7 @@
+//! Every tolerance of the test suite: (function, regime, bound, kind of evidence). No literal tolerance stands elsewhere.
+#![allow(dead_code, reason = "each test binary uses a part of it")]
+
+pub mod ilv;
+pub mod solid_angle;
+pub mod sprt;
+pub mod voronoi;

@@ -1,0 +1,1 @@
+//! Tolerances of the tests of `sprt`.
