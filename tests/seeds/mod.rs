@@ -5,6 +5,7 @@
 #![allow(dead_code, reason = "each test binary uses a part of it")]
 
 use proptest::test_runner::{Config, RngSeed};
+use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
 fn variable(name: &str, default: u64) -> u64 {
@@ -26,7 +27,8 @@ pub fn cases(n: u32) -> u32 {
 
 /// A generator for stream `stream` of this run's seed.
 pub fn rng(stream: u64) -> Pcg64 {
-    Pcg64::new(u128::from(seed()), u128::from(stream))
+    // An odd multiplier keeps the streams apart; `seed_from_u64` scrambles what it is given.
+    Pcg64::seed_from_u64(seed() ^ stream.wrapping_mul(0x9e37_79b9_7f4a_7c15))
 }
 
 /// Configuration of a property test with `n` cases; regressions become named tests, so nothing is persisted.
