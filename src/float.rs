@@ -1,1 +1,45 @@
 //! Every transcendental function that the crate uses, in one place.
+
+// The geometric half: correctly rounded, so that the same input gives the same bits on every machine.
+
+/// Angle of the point `(x, y)` from the positive x axis, in (−π, π].
+#[cfg(feature = "sphere")]
+pub(crate) fn atan2(y: f64, x: f64) -> f64 {
+    pxfm::f_atan2(y, x)
+}
+
+/// Angle in [0, π] whose cosine is `x`; NaN outside [−1, 1].
+#[cfg(feature = "sphere")]
+pub(crate) fn acos(x: f64) -> f64 {
+    pxfm::f_acos(x)
+}
+
+/// Angle in [−π/2, π/2] whose sine is `x`; NaN outside [−1, 1].
+#[cfg(feature = "sphere")]
+pub(crate) fn asin(x: f64) -> f64 {
+    pxfm::f_asin(x)
+}
+
+/// Sine of an angle in radians.
+#[cfg(feature = "sphere")]
+pub(crate) fn sin(x: f64) -> f64 {
+    pxfm::f_sin(x)
+}
+
+/// Cosine of an angle in radians.
+#[cfg(feature = "sphere")]
+pub(crate) fn cos(x: f64) -> f64 {
+    pxfm::f_cos(x)
+}
+
+/// Tangent of an angle in radians.
+#[cfg(feature = "sphere")]
+pub(crate) fn tan(x: f64) -> f64 {
+    pxfm::f_tan(x)
+}
+
+/// √(x² + y²) without overflow.
+#[cfg(feature = "sphere")]
+pub(crate) fn hypot(x: f64, y: f64) -> f64 {
+    pxfm::f_hypot(x, y)
+}

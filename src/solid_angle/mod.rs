@@ -1,1 +1,52 @@
 //! Solid angle and vector moment of spherical polygons.
+
+mod check;
+mod error;
+pub mod fast;
+
+use core::f64::consts::PI;
+
+use glam::DVec3;
+
+pub use check::UNIT_TOLERANCE;
+pub use error::SolidAngleError;
+
+/// Signed solid angle of the spherical triangle `a b c`, in steradians, in (−2π, 2π]; positive if counter-clockwise seen
+/// from outside.
+///
+/// # Errors
+///
+/// As for [`polygon`].
+pub fn triangle(a: DVec3, b: DVec3, c: DVec3) -> Result<f64, SolidAngleError> {
+    signed_polygon(&[a, b, c])
+}
+
+/// Solid angle of the region on the left of the closed loop `vertices`, in steradians, in [0, 4π).
+///
+/// # Errors
+///
+/// Fewer than three vertices, a vertex that is not finite or not unit, an edge whose ends are antipodal.
+pub fn polygon(vertices: &[DVec3]) -> Result<f64, SolidAngleError> {
+    let signed = signed_polygon(vertices)?;
+    Ok(if signed < 0.0 { 4.0 * PI + signed } else { signed })
+}
+
+/// Signed solid angle of the region on the left of the closed loop `vertices`, in steradians, in (−2π, 2π].
+///
+/// # Errors
+///
+/// As for [`polygon`].
+pub fn signed_polygon(vertices: &[DVec3]) -> Result<f64, SolidAngleError> {
+    check::check(vertices)?;
+    Ok(fast::signed_polygon(vertices))
+}
+
+/// Vector moment ∫ ω dω of the region on the left of the closed loop `vertices`.
+///
+/// # Errors
+///
+/// As for [`polygon`].
+pub fn vector_moment(vertices: &[DVec3]) -> Result<DVec3, SolidAngleError> {
+    check::check(vertices)?;
+    Ok(fast::vector_moment(vertices))
+}
