@@ -1,0 +1,34 @@
+//! A compact path tracer for the test scenes: rays against one room, a few convex solids and one rectangular light.
+//!
+//! # Model
+//! Lambertian surfaces, radiances in red, green and blue. A scene is a box-shaped [`Room`] whose walls are seen from inside,
+//! convex [`Solid`]s that stand in it, and at most one one-sided black [`Light`] parallel to a wall. Direct light is
+//! deterministic: the exact irradiance of the whole light times the visible part of a grid of its points.
+//!
+//! # Guarantees
+//! (1) A ray that starts in a closed room meets a surface, and the normal of the hit faces it: `tests/scene_geometry.rs`.
+//! (2) Irradiances agree with closed forms and with the radiosity of the unit cube: `tests/scene_analytic.rs`.
+//! (3) One-bounce pictures agree with an independent path tracer: `tests/scene_reference.rs`.
+//! (4) Only additions, products, quotients and square roots are used: the same bits on every machine.
+//!
+//! # Not here
+//! Meshes, textures, file formats, random numbers, the gather and the cache.
+
+mod analytic;
+pub mod bounds;
+mod camera;
+mod cornell;
+mod corridor;
+mod light;
+mod room;
+mod scene;
+mod solid;
+mod source;
+
+pub use camera::Camera;
+pub use corridor::in_indirect_shadow;
+pub use light::Light;
+pub use room::Room;
+pub use scene::{Hit, Scene};
+pub use solid::Solid;
+pub use source::SceneSource;
