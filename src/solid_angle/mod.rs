@@ -1,15 +1,17 @@
 //! Solid angle and vector moment of spherical polygons.
 
 mod check;
+mod double;
 mod error;
+mod exact;
+mod fan;
 pub mod fast;
-
-use core::f64::consts::PI;
 
 use glam::DVec3;
 
 pub use check::UNIT_TOLERANCE;
 pub use error::SolidAngleError;
+use fan::HalfAngle;
 
 /// Signed solid angle of the spherical triangle `a b c`, in steradians, in (−2π, 2π]; positive if counter-clockwise seen
 /// from outside.
@@ -27,8 +29,7 @@ pub fn triangle(a: DVec3, b: DVec3, c: DVec3) -> Result<f64, SolidAngleError> {
 ///
 /// Fewer than three vertices, a vertex that is not finite or not unit, an edge whose ends are antipodal.
 pub fn polygon(vertices: &[DVec3]) -> Result<f64, SolidAngleError> {
-    let signed = signed_polygon(vertices)?;
-    Ok(if signed < 0.0 { 4.0 * PI + signed } else { signed })
+    half_angle(vertices).map(|half| half.unsigned())
 }
 
 /// Signed solid angle of the region on the left of the closed loop `vertices`, in steradians, in (−2π, 2π].
@@ -37,8 +38,12 @@ pub fn polygon(vertices: &[DVec3]) -> Result<f64, SolidAngleError> {
 ///
 /// As for [`polygon`].
 pub fn signed_polygon(vertices: &[DVec3]) -> Result<f64, SolidAngleError> {
+    half_angle(vertices).map(|half| half.signed())
+}
+
+fn half_angle(vertices: &[DVec3]) -> Result<HalfAngle, SolidAngleError> {
     check::check(vertices)?;
-    Ok(fast::signed_polygon(vertices))
+    Ok(if check::has_whiskers(vertices) { fan::half_angle(&check::prune(vertices)) } else { fan::half_angle(vertices) })
 }
 
 /// Vector moment ∫ ω dω of the region on the left of the closed loop `vertices`.
