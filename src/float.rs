@@ -43,3 +43,9 @@ pub(crate) fn tan(x: f64) -> f64 {
 pub(crate) fn hypot(x: f64, y: f64) -> f64 {
     pxfm::f_hypot(x, y)
 }
+
+/// Sine and cosine of an angle in radians.
+#[cfg(feature = "ilv")]
+pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
+    pxfm::f_sincos(x)
+}

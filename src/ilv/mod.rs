@@ -1,5 +1,49 @@
 //! Indirect light vectors: the adaptive hemisphere sampler, the light vector and its interpolating cache.
+//!
+//! # Model
+//! At a surface point, an [`AdaptiveSampler`] divides the hemisphere into equal cells, shoots rays into each, lets a
+//! sequential probability ratio test say which cells are homogeneous, splits the others, and weighs every ray by the part
+//! of the hemisphere for which it stands, its spherical Voronoi cell. The result is one [`LightVector`]; a [`Cache`] of
+//! light vectors is interpolated wherever it is valid.
+//!
+//! There is no scene in here: a [`RadianceSource`] answers a direction with a radiance.
+//!
+//! # Guarantees
+//! (1) In a constant field of radiance L, Voronoi moments give E = πL and Φ = πY n for every set of rays:
+//!     `tests/light_vector_laws.rs`.
+//! (2) n·Φ is the luminance of E: `tests/light_vector_laws.rs`.
+//! (3) A dark hemisphere is homogeneous, its light vector zero: `tests/light_vector_laws.rs`.
+//! (4) The same seed gives the same bits: `tests/light_vector_laws.rs`.
+//! (5) A cache answers with its record at the record's own place, and never for the far side of a surface:
+//!     `tests/cache_laws.rs`.
+//!
+//! # Not here
+//! Geometry, materials and cameras: the tracer that puts this module to the test stands in `tests/tracer/`.
+//!
+//! # Source
+//! Serpaggi and Péroche, *An Adaptive Method for Indirect Illumination Using Light Vectors*, Computer Graphics Forum
+//! 20(3), 2001.
 
+mod cache;
+mod cell;
+mod frame;
+mod gather;
+mod luminance;
+mod refinement;
+mod sampler;
 mod source;
+mod validity;
+mod vector;
+mod weights;
 
+pub use cache::{Cache, CacheError};
+pub use cell::{Cell, CellMap};
+pub use frame::{Frame, FrameError};
+pub use gather::{Gather, GatherError, Ray};
+pub use luminance::{LUMINANCE_WEIGHTS, luminance};
+pub use refinement::{Refinement, RefinementError, Reuse};
+pub use sampler::{AdaptiveSampler, Points, SamplerError};
 pub use source::{RadianceSource, Sample};
+pub use validity::{Validity, ValidityError};
+pub use vector::LightVector;
+pub use weights::Weights;

@@ -20,6 +20,7 @@ mod camera;
 mod cornell;
 mod corridor;
 mod light;
+pub mod render;
 mod room;
 mod scene;
 mod solid;

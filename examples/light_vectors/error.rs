@@ -1,0 +1,58 @@
+//! What can go wrong with the job, in words for the person who runs it.
+
+use std::{fmt, io, path::PathBuf};
+
+use steradian::ilv::{GatherError, SamplerError, ValidityError};
+
+/// A failure of the job.
+#[derive(Debug)]
+pub enum JobError {
+    /// A file or folder could not be read or written.
+    File { path: PathBuf, error: io::Error },
+    /// A picture could not be written.
+    Picture { path: PathBuf, error: image::ImageError },
+    /// A table could not be written.
+    Table { path: PathBuf, error: csv::Error },
+    /// The threads could not be started.
+    Threads(rayon::ThreadPoolBuildError),
+    /// The sampler was refused.
+    Sampler(SamplerError),
+    /// The cache rule was refused.
+    Validity(ValidityError),
+    /// A gather failed.
+    Gather(GatherError),
+}
+
+impl fmt::Display for JobError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::File { path, error } => write!(f, "cannot use {}: {error}", path.display()),
+            Self::Picture { path, error } => write!(f, "cannot write the picture {}: {error}", path.display()),
+            Self::Table { path, error } => write!(f, "cannot write the table {}: {error}", path.display()),
+            Self::Threads(error) => write!(f, "cannot start the threads: {error}"),
+            Self::Sampler(error) => write!(f, "{error}"),
+            Self::Validity(error) => write!(f, "{error}"),
+            Self::Gather(error) => write!(f, "{error}"),
+        }
+    }
+}
+
+impl std::error::Error for JobError {}
+
+impl From<SamplerError> for JobError {
+    fn from(error: SamplerError) -> Self {
+        Self::Sampler(error)
+    }
+}
+
+impl From<ValidityError> for JobError {
+    fn from(error: ValidityError) -> Self {
+        Self::Validity(error)
+    }
+}
+
+impl From<GatherError> for JobError {
+    fn from(error: GatherError) -> Self {
+        Self::Gather(error)
+    }
+}

@@ -1,0 +1,163 @@
+//! The experiment of Serpaggi and Péroche (2001), table 1, with the error that the paper left out.
+//!
+//! Renders each scene by each method, prints one table per scene, and writes pictures, error maps, one contact sheet per
+//! scene and the table as CSV into the folder that `--out` names. See `--help`.
+
+use std::{fs, process::ExitCode};
+
+use clap::Parser;
+use cpu_time::ProcessTime;
+use steradian::{
+    glam::DVec3,
+    ilv::{AdaptiveSampler, Validity, luminance},
+};
+
+#[allow(dead_code, reason = "uses a part of the tracer")]
+#[path = "../../tests/tracer/mod.rs"]
+mod tracer;
+
+mod error;
+mod options;
+mod picture;
+mod progress;
+mod reference;
+mod table;
+
+use error::JobError;
+use options::{MethodName, Options, SceneName};
+use picture::Column;
+use progress::Progress;
+use reference::Reference;
+use table::Row;
+use tracer::{
+    Scene,
+    render::{self, Settings, View},
+};
+
+/// Points along each side of the lamp at which the methods test its visibility.
+const LIGHT_GRID: usize = 2;
+/// The same for the direct light of the pictures, where a coarse grid would show.
+const DIRECT_LIGHT_GRID: usize = 8;
+/// The folder of the references, which outlive `--out`.
+const REFERENCES: &str = "target/light_vectors/references";
+
+fn main() -> ExitCode {
+    match run(&Options::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(options: &Options) -> Result<(), JobError> {
+    for folder in [options.out.as_path(), REFERENCES.as_ref()] {
+        // Found out before the work rather than after it.
+        let probe = folder.join(".writable");
+        fs::create_dir_all(folder)
+            .and_then(|()| fs::write(&probe, b""))
+            .and_then(|()| fs::remove_file(&probe))
+            .map_err(|error| JobError::File { path: folder.to_owned(), error })?;
+    }
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build().map_err(JobError::Threads)?;
+    let mut rows = Vec::new();
+    for &name in &options.scene {
+        let of_scene = pool.install(|| compare(name, options))?;
+        let vectors = options.size * options.size;
+        println!("{}, {size} x {size} pixels ({vectors}), one indirect bounce", scene_of(name).name, size = options.size);
+        println!("{}", table::text(&of_scene));
+        rows.extend(of_scene);
+    }
+    table::write(&rows, &options.out.join("table.csv"))?;
+    println!("pictures and table.csv are in {}", options.out.display());
+    Ok(())
+}
+
+/// Renders one scene by every method asked for.
+fn compare(name: SceneName, options: &Options) -> Result<Vec<Row>, JobError> {
+    let scene = scene_of(name);
+    let view = View::new(&scene, options.size);
+    let reference = Reference::of(&view, options.reference_rays, REFERENCES.as_ref())?;
+    let truth = reference.mean();
+    let lit: Vec<f64> =
+        (0..truth.len()).filter(|&pixel| view.lit(pixel).is_some()).map(|pixel| luminance(truth[pixel])).collect();
+    let mean = lit.iter().sum::<f64>() / lit.len().max(1) as f64;
+    let direct = view.direct(DIRECT_LIGHT_GRID);
+    let exposures = Exposures { picture: picture::exposure(&sum(&direct, &truth)), indirect: picture::exposure(&truth) };
+    let draw = |stem: &str, note: String, indirect: &[DVec3]| -> Result<Column, JobError> {
+        let size = options.size;
+        let map = picture::error_map(indirect, &truth, size, mean);
+        let pictures = [
+            picture::tone_mapped(&sum(&direct, indirect), size, exposures.picture),
+            picture::tone_mapped(indirect, size, exposures.indirect),
+            map,
+        ];
+        let file = |kind: &str| options.out.join(format!("{}_{stem}_{kind}.png", scene.name));
+        picture::save(&pictures[0], &file("picture"))?;
+        picture::save(&pictures[1], &file("indirect"))?;
+        picture::save(&picture::with_scale(&pictures[2]), &file("error"))?;
+        Ok(Column { title: stem.to_owned(), note, pictures })
+    };
+
+    let mut rows = Vec::new();
+    let mut columns = vec![draw("reference", format!("{} rays a pixel", options.reference_rays), &truth)?];
+    for &method in &options.method {
+        let label = label(method);
+        let settings = settings(method, &scene, options)?;
+        let progress = Progress::new(&format!("{} {label}", scene.name), truth.len());
+        let clock = ProcessTime::now();
+        let rendering = render::render(&view, &settings, &|pixels| progress.advance(pixels))?;
+        let cpu = clock.elapsed();
+        drop(progress);
+        let row = Row::new(&view, label, cpu, &rendering, &reference);
+        let note = format!("{:.2} CPU s, RMSE {:.1} %", row.cpu_seconds, 100.0 * row.relative_rmse);
+        columns.push(draw(label, note, &rendering.indirect)?);
+        rows.push(row);
+    }
+    let title = format!("{}, one indirect bounce", scene.name);
+    let sheet = picture::contact_sheet(&title, &columns);
+    picture::save(&sheet, &options.out.join(format!("{}_sheet.png", scene.name)))?;
+    Ok(rows)
+}
+
+/// Brightness of the two kinds of picture, the same for every method of a scene.
+struct Exposures {
+    picture: f64,
+    indirect: f64,
+}
+
+fn sum(a: &[DVec3], b: &[DVec3]) -> Vec<DVec3> {
+    a.iter().zip(b).map(|(a, b)| *a + *b).collect()
+}
+
+fn scene_of(name: SceneName) -> Scene {
+    match name {
+        SceneName::Cornell => Scene::cornell(),
+        SceneName::CornellClosed => Scene::cornell_closed(),
+        SceneName::Corridor => Scene::corridor(),
+    }
+}
+
+fn label(method: MethodName) -> &'static str {
+    match method {
+        MethodName::Brute => "brute",
+        MethodName::Original => "original",
+        MethodName::Paper => "paper",
+        MethodName::Stratified => "stratified",
+    }
+}
+
+fn settings(method: MethodName, scene: &Scene, options: &Options) -> Result<Settings, JobError> {
+    let sampler = match method {
+        MethodName::Brute => AdaptiveSampler::stratified(options.brute_rays)?,
+        MethodName::Original => AdaptiveSampler::fixed(32, 32)?,
+        MethodName::Paper => AdaptiveSampler::paper(),
+        MethodName::Stratified => AdaptiveSampler::stratified(options.stratified_rays)?,
+    };
+    let validity = match method {
+        MethodName::Brute => None,
+        _ => Some(Validity::for_scene(options.accuracy, scene.size)?),
+    };
+    Ok(Settings { sampler, validity, light_grid: LIGHT_GRID, seed: options.seed })
+}

@@ -1,0 +1,89 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Parser, ValueEnum};
+
+/// Renders the scenes of Serpaggi and Péroche (2001), one indirect bounce, by several methods, and tells what each costs
+/// and how far it is from a converged reference.
+#[derive(Parser, Debug)]
+#[command(name = "light_vectors", version)]
+pub struct Options {
+    /// Width and height of the pictures in pixels
+    #[arg(long, default_value_t = 300, value_parser = clap::value_parser!(u32).range(16..=2000))]
+    pub size: u32,
+
+    /// Scenes to render
+    #[arg(long, value_enum, value_delimiter = ',', default_values_t = [SceneName::Cornell, SceneName::Corridor])]
+    pub scene: Vec<SceneName>,
+
+    /// Methods to compare
+    #[arg(long, value_enum, value_delimiter = ',', default_values_t = MethodName::value_variants().iter().copied())]
+    pub method: Vec<MethodName>,
+
+    /// Seed of every random number
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+
+    /// Number of threads; 0 takes every core. The pictures do not depend on it
+    #[arg(long, default_value_t = 0, value_parser = parse_threads)]
+    pub threads: usize,
+
+    /// Folder for the pictures and the table
+    #[arg(long, default_value = "target/light_vectors")]
+    pub out: PathBuf,
+
+    /// Error at which a light vector stops being used (Ward's accuracy): smaller is slower and better
+    #[arg(long, default_value_t = 0.3, value_parser = parse_accuracy)]
+    pub accuracy: f64,
+
+    /// Rays per pixel of `brute`
+    #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=65_536))]
+    pub brute_rays: u32,
+
+    /// Rays per light vector of `stratified`
+    #[arg(long, default_value_t = 208, value_parser = clap::value_parser!(u32).range(1..=65_536))]
+    pub stratified_rays: u32,
+
+    /// Rays per pixel of the reference
+    #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(2..=1_048_576))]
+    pub reference_rays: u32,
+}
+
+/// A scene by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SceneName {
+    /// The Cornell box, open towards the camera
+    Cornell,
+    /// The Cornell box with a front wall, seen from inside
+    CornellClosed,
+    /// The L-shaped corridor whose lamp is around the corner
+    Corridor,
+}
+
+/// A method by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum MethodName {
+    /// Monte Carlo at every pixel, no light vectors
+    Brute,
+    /// Light vectors of 32 × 32 rays in equal solid angles
+    Original,
+    /// Light vectors of the paper: sequential test, Voronoi weights
+    Paper,
+    /// Light vectors of as many rays in equal projected solid angles as `--stratified-rays` says
+    Stratified,
+}
+
+fn parse_accuracy(text: &str) -> Result<f64, String> {
+    let accuracy: f64 = text.parse().map_err(|error| format!("{error}"))?;
+    steradian::ilv::Validity::for_scene(accuracy, 1.0).map_err(|error| error.to_string())?;
+    Ok(accuracy)
+}
+
+fn parse_threads(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(threads) if threads <= 1024 => Ok(threads),
+        Ok(_) => Err("at most 1024".to_owned()),
+        Err(error) => Err(format!("{error}")),
+    }
+}

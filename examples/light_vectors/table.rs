@@ -1,0 +1,130 @@
+//! What each method cost and how far it is from the reference, printed and as a file.
+
+use std::{path::Path, time::Duration};
+
+use serde::Serialize;
+use steradian::{glam::DVec3, ilv::luminance};
+
+use crate::{
+    error::JobError,
+    reference::Reference,
+    tracer::{
+        in_indirect_shadow,
+        render::{Rendering, View},
+    },
+};
+
+/// One line of the table.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    pub scene: String,
+    pub size: u32,
+    pub method: String,
+    pub cpu_seconds: f64,
+    pub light_vectors: u64,
+    pub rays_per_light_vector: Option<f64>,
+    pub rays: u64,
+    /// Root mean squared error of the indirect luminance over its mean, noise of the reference taken off.
+    pub relative_rmse: f64,
+    /// Mean error of the indirect luminance over its mean.
+    pub relative_bias: f64,
+    pub shadow_patch_relative_rmse: Option<f64>,
+    pub shadow_patch_relative_bias: Option<f64>,
+}
+
+impl Row {
+    /// The line of one rendering.
+    pub fn new(view: &View, method: &str, cpu: Duration, rendering: &Rendering, reference: &Reference) -> Self {
+        let lit = |pixel: &usize| view.lit(*pixel).is_some();
+        let everywhere = Deviation::over((0..view.visible.len()).filter(lit), &rendering.indirect, reference);
+        let in_shadow = |pixel: &usize| view.lit(*pixel).is_some_and(|s| view.scene.name == "corridor" && in_indirect_shadow(s.position));
+        let patch = Deviation::over((0..view.visible.len()).filter(in_shadow), &rendering.indirect, reference);
+        let everywhere = everywhere.unwrap_or(Deviation { relative_rmse: f64::NAN, relative_bias: f64::NAN });
+        Self {
+            scene: view.scene.name.to_owned(),
+            size: view.size,
+            method: method.to_owned(),
+            cpu_seconds: cpu.as_secs_f64(),
+            light_vectors: rendering.light_vectors,
+            rays_per_light_vector: (rendering.light_vectors > 0)
+                .then(|| rendering.rays as f64 / rendering.light_vectors as f64),
+            rays: rendering.rays,
+            relative_rmse: everywhere.relative_rmse,
+            relative_bias: everywhere.relative_bias,
+            shadow_patch_relative_rmse: patch.map(|patch| patch.relative_rmse),
+            shadow_patch_relative_bias: patch.map(|patch| patch.relative_bias),
+        }
+    }
+}
+
+/// Error of a picture over a set of pixels, relative to the mean of the reference there.
+#[derive(Clone, Copy)]
+struct Deviation {
+    relative_rmse: f64,
+    relative_bias: f64,
+}
+
+impl Deviation {
+    /// `None` when there is no pixel, or when all of them are dark.
+    fn over(pixels: impl Iterator<Item = usize>, picture: &[DVec3], reference: &Reference) -> Option<Self> {
+        let [a, b] = reference.halves();
+        let (mut n, mut mean, mut square, mut bias) = (0.0, 0.0, 0.0, 0.0);
+        for pixel in pixels {
+            let (m, r1, r2) = (luminance(picture[pixel]), luminance(a[pixel]), luminance(b[pixel]));
+            n += 1.0;
+            mean += 0.5 * (r1 + r2);
+            square += (m - r1) * (m - r2);
+            bias += m - 0.5 * (r1 + r2);
+        }
+        (mean > 0.0).then(|| Self {
+            // Without the noise of the reference the estimate may fall below zero for a picture that is as good.
+            relative_rmse: (square.max(0.0) / n).sqrt() / (mean / n),
+            relative_bias: bias / mean,
+        })
+    }
+}
+
+/// The table of one scene, as text.
+pub fn text(rows: &[Row]) -> String {
+    let percent = |x: f64, signed: bool| {
+        if signed { format!("{:+.2} %", 100.0 * x) } else { format!("{:.2} %", 100.0 * x) }
+    };
+    let patch = rows.iter().any(|row| row.shadow_patch_relative_rmse.is_some());
+    let mut text = format!(
+        "{:<11} {:>7} {:>7} {:>10} {:>11} {:>10} {:>9}",
+        "method", "CPU s", "vectors", "rays/vec.", "rays", "RMSE/mean", "bias"
+    );
+    if patch {
+        text += &format!(" {:>11} {:>11}", "patch RMSE", "patch bias");
+    }
+    text.push('\n');
+    for row in rows {
+        let per_vector = row.rays_per_light_vector.map_or("-".to_owned(), |rays| format!("{rays:.1}"));
+        let vectors = if row.light_vectors == 0 { "-".to_owned() } else { row.light_vectors.to_string() };
+        text += &format!(
+            "{:<11} {:>7.2} {:>7} {:>10} {:>11} {:>10} {:>9}",
+            row.method,
+            row.cpu_seconds,
+            vectors,
+            per_vector,
+            row.rays,
+            percent(row.relative_rmse, false),
+            percent(row.relative_bias, true)
+        );
+        if let (Some(rmse), Some(bias)) = (row.shadow_patch_relative_rmse, row.shadow_patch_relative_bias) {
+            text += &format!(" {:>11} {:>11}", percent(rmse, false), percent(bias, true));
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// Writes every row to one file.
+pub fn write(rows: &[Row], path: &Path) -> Result<(), JobError> {
+    let failed = |error| JobError::Table { path: path.to_owned(), error };
+    let mut table = csv::Writer::from_path(path).map_err(failed)?;
+    for row in rows {
+        table.serialize(row).map_err(failed)?;
+    }
+    table.flush().map_err(|error| JobError::File { path: path.to_owned(), error })
+}

@@ -1,0 +1,374 @@
+//! One gather: the rays of one hemisphere and the light vector that they make.
+
+use core::fmt;
+
+use alloc::vec::Vec;
+
+use glam::DVec3;
+use rand::{Rng, RngExt};
+
+use super::{
+    AdaptiveSampler, Cell, Frame, LightVector, Points, RadianceSource, Refinement,
+    cell::Coordinates,
+    luminance,
+    refinement::Homogeneity,
+    weights::{self, Weighing},
+};
+use crate::{sprt::Decision, voronoi::VoronoiError};
+
+/// One ray of a gather.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    pub(super) direction: DVec3,
+    pub(super) radiance: DVec3,
+    pub(super) distance: f64,
+    pub(super) moment: DVec3,
+    pub(super) cell: u32,
+}
+
+impl Ray {
+    /// Unit vector away from the point, in world coordinates.
+    #[must_use]
+    pub fn direction(&self) -> DVec3 {
+        self.direction
+    }
+
+    /// Incoming radiance, red, green and blue.
+    #[must_use]
+    pub fn radiance(&self) -> DVec3 {
+        self.radiance
+    }
+
+    /// Distance of the surface met; infinite when there was none.
+    #[must_use]
+    pub fn distance(&self) -> f64 {
+        self.distance
+    }
+
+    /// Vector weight: the light vector is Φ = Σ Y mᵢ and E = Σ L (n·mᵢ), with the radiance L and its luminance Y.
+    #[must_use]
+    pub fn moment(&self) -> DVec3 {
+        self.moment
+    }
+
+    /// Index into [`Gather::cells`] of the cell in which the ray ended up.
+    #[must_use]
+    pub fn cell(&self) -> usize {
+        self.cell as usize
+    }
+}
+
+/// The rays that one sampler shot from one point, their cells and the light vector that they make.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gather {
+    frame: Frame,
+    cells: Vec<Cell>,
+    rays: Vec<Ray>,
+    vector: LightVector,
+}
+
+/// Why a gather failed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum GatherError {
+    /// The source answered with a negative, infinite or NaN radiance.
+    Radiance {
+        /// Direction of the ray.
+        direction: DVec3,
+        /// What the source answered.
+        radiance: DVec3,
+    },
+    /// The source answered with a distance that is not above zero.
+    Distance {
+        /// Direction of the ray.
+        direction: DVec3,
+        /// What the source answered.
+        distance: f64,
+    },
+    /// The reflectance function answered with a negative, infinite or NaN value.
+    Reflectance {
+        /// Direction of the ray.
+        direction: DVec3,
+        /// What the function answered.
+        reflectance: DVec3,
+    },
+    /// The radiances are finite but their sum is not.
+    Overflow,
+    /// The Voronoi diagram of the rays failed.
+    Voronoi(VoronoiError),
+}
+
+impl fmt::Display for GatherError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Radiance { direction, radiance } => {
+                write!(f, "the radiance {radiance} from {direction} is not a finite colour of at least zero")
+            }
+            Self::Distance { direction, distance } => {
+                write!(f, "the distance {distance} towards {direction} is not above zero")
+            }
+            Self::Reflectance { direction, reflectance } => {
+                write!(f, "the reflectance {reflectance} for light from {direction} is not a finite colour of at least zero")
+            }
+            Self::Overflow => write!(f, "the sum of the radiances overflows"),
+            Self::Voronoi(error) => write!(f, "the Voronoi diagram of the rays failed: {error}"),
+        }
+    }
+}
+
+impl core::error::Error for GatherError {}
+
+impl Gather {
+    /// The frame of the gather: the caller's, turned by a random angle about the normal.
+    #[must_use]
+    pub fn frame(&self) -> &Frame {
+        &self.frame
+    }
+
+    /// The cells into which the hemisphere ended up divided.
+    #[must_use]
+    pub fn cells(&self) -> &[Cell] {
+        &self.cells
+    }
+
+    /// Every ray that was shot, in the order of shooting.
+    #[must_use]
+    pub fn rays(&self) -> &[Ray] {
+        &self.rays
+    }
+
+    /// The light vector of the gather.
+    #[must_use]
+    pub fn vector(&self) -> &LightVector {
+        &self.vector
+    }
+}
+
+impl AdaptiveSampler {
+    /// Samples the hemisphere of `frame` for a diffuse surface, whose reflected radiance is proportional to the incoming.
+    ///
+    /// # Errors
+    /// [`GatherError`]: what the source answered wrongly, and in which direction.
+    pub fn gather<S, R>(&self, frame: Frame, source: &mut S, rng: &mut R) -> Result<Gather, GatherError>
+    where
+        S: RadianceSource + ?Sized,
+        R: Rng + ?Sized,
+    {
+        self.gather_reflected(frame, source, |_| DVec3::ONE, rng)
+    }
+
+    /// Samples the hemisphere of `frame` for the surface whose bidirectional reflectance, from the unit vector that it is
+    /// given towards the viewer, is `reflectance` (one value per colour, in 1/sr, up to a common factor).
+    ///
+    /// The cells are split by the luminance of the *reflected* radiance, without the cosine; the light vector is made of
+    /// the incoming radiance.
+    ///
+    /// # Errors
+    /// [`GatherError`]: what the source or the reflectance answered wrongly, and in which direction.
+    pub fn gather_reflected<S, B, R>(
+        &self,
+        frame: Frame,
+        source: &mut S,
+        reflectance: B,
+        rng: &mut R,
+    ) -> Result<Gather, GatherError>
+    where
+        S: RadianceSource + ?Sized,
+        B: Fn(DVec3) -> DVec3,
+        R: Rng + ?Sized,
+    {
+        let frame = frame.rotated(core::f64::consts::TAU * rng.random::<f64>());
+        let mut tracing = Tracing { frame, points: self.points, source, reflectance, rng, shots: Vec::new() };
+        let leaves = match &self.refinement {
+            None => tracing.one_ray_each(self.base_cells())?,
+            Some(rule) => tracing.refine(self.base_cells(), rule)?,
+        };
+        let shots = tracing.shots;
+        let cells: Vec<Cell> = leaves.iter().map(|leaf| leaf.cell).collect();
+        let mut rays: Vec<Ray> = shots.iter().map(|shot| shot.ray).collect();
+        for (index, leaf) in leaves.iter().enumerate() {
+            for &ray in &leaf.rays {
+                rays[ray].cell = index as u32;
+            }
+        }
+        let members: Vec<&[usize]> = leaves.iter().map(|leaf| leaf.rays.as_slice()).collect();
+        let weighing = Weighing { frame: &frame, cells: &cells, members: &members };
+        weighing.assign(self.weights, &mut rays).map_err(GatherError::Voronoi)?;
+        let vector = weighing.light_vector(self.weights, self.grid[1], &rays);
+        let finite = vector.irradiance().is_finite() && vector.vector_irradiance().is_finite();
+        if !(finite && vector.standard_error().is_finite()) {
+            return Err(GatherError::Overflow);
+        }
+        debug_assert!(weights::agree(&vector, frame.normal()));
+        Ok(Gather { frame, cells, rays, vector })
+    }
+
+    fn base_cells(&self) -> impl Iterator<Item = Cell> + use<> {
+        let (map, grid) = (self.map, self.grid);
+        (0..grid[0]).flat_map(move |ring| (0..grid[1]).map(move |sector| Cell::of_grid(map, grid, ring, sector)))
+    }
+}
+
+/// A ray with what only the gather needs to know of it.
+struct Shot {
+    ray: Ray,
+    at: Coordinates,
+    /// The tested quantity: luminance of the reflected radiance.
+    y: f64,
+}
+
+/// A cell on its way to becoming a leaf.
+struct Branch {
+    cell: Cell,
+    /// Indices of every ray in the cell.
+    rays: Vec<usize>,
+    /// How many of the rays, counted from the end, the test of this cell may see.
+    tested: usize,
+    /// Start of the low-discrepancy sequence in the cell, and number of points taken from it.
+    sequence: ([f64; 2], u32),
+}
+
+/// The state of a gather while rays are being shot.
+struct Tracing<'a, S: ?Sized, B, R: ?Sized> {
+    frame: Frame,
+    points: Points,
+    source: &'a mut S,
+    reflectance: B,
+    rng: &'a mut R,
+    shots: Vec<Shot>,
+}
+
+impl<S, B, R> Tracing<'_, S, B, R>
+where
+    S: RadianceSource + ?Sized,
+    B: Fn(DVec3) -> DVec3,
+    R: Rng + ?Sized,
+{
+    fn branch(&mut self, cell: Cell, rays: Vec<usize>, tested: usize) -> Branch {
+        let start = match self.points {
+            Points::Random => [0.0; 2],
+            Points::LowDiscrepancy => [self.rng.random(), self.rng.random()],
+        };
+        Branch { cell, rays, tested, sequence: (start, 0) }
+    }
+
+    fn one_ray_each(&mut self, cells: impl Iterator<Item = Cell>) -> Result<Vec<Branch>, GatherError> {
+        cells
+            .map(|cell| {
+                let mut leaf = self.branch(cell, Vec::with_capacity(1), 0);
+                self.shoot(&mut leaf)?;
+                Ok(leaf)
+            })
+            .collect()
+    }
+
+    /// Tests and splits, one depth after the other, until every cell is a leaf.
+    fn refine(
+        &mut self,
+        cells: impl Iterator<Item = Cell>,
+        rule: &Refinement,
+    ) -> Result<Vec<Branch>, GatherError> {
+        let mut leaves = Vec::new();
+        let mut open: Vec<Branch> = cells.map(|cell| self.branch(cell, Vec::new(), 0)).collect();
+        for depth in 0..=rule.depth() {
+            for branch in &mut open {
+                while branch.tested < rule.batch() as usize {
+                    self.shoot(branch)?;
+                }
+            }
+            if depth == rule.depth() {
+                break;
+            }
+            let total: f64 = leaves.iter().chain(&open).map(|branch| self.mean_light(branch)).sum();
+            let mut next = Vec::new();
+            for mut branch in open {
+                if self.wants_a_split(&mut branch, rule, total)? {
+                    for cell in branch.cell.split() {
+                        let inside = |&&ray: &&usize| cell.contains(self.shots[ray].at);
+                        let rays: Vec<usize> = branch.rays.iter().filter(inside).copied().collect();
+                        let tested = if rule.inherits() { rays.len() } else { 0 };
+                        next.push(self.branch(cell, rays, tested));
+                    }
+                } else {
+                    leaves.push(branch);
+                }
+            }
+            open = next;
+        }
+        leaves.append(&mut open);
+        Ok(leaves)
+    }
+
+    /// Runs the homogeneity test of a cell whose first batch is complete, shooting rays while it is undecided.
+    fn wants_a_split(&mut self, branch: &mut Branch, rule: &Refinement, total: f64) -> Result<bool, GatherError> {
+        let projected = branch.cell.projected_solid_angle();
+        let values = |shots: &[Shot], branch: &Branch| -> Vec<f64> {
+            branch.rays[branch.rays.len() - branch.tested..].iter().map(|&ray| shots[ray].y).collect()
+        };
+        let seen = values(&self.shots, branch);
+        let largest = seen.iter().copied().fold(0.0, f64::max);
+        if !rule.is_worth_a_split(largest * projected, total) {
+            return Ok(false);
+        }
+        let (first, rest) = seen.split_at(rule.batch() as usize);
+        let mut test = Homogeneity::open(rule, first);
+        for &y in rest {
+            test.push(y);
+        }
+        loop {
+            if let Some(verdict) = test.verdict() {
+                return Ok(verdict == Decision::RejectH0);
+            }
+            let y = self.shoot(branch)?;
+            test.push(y);
+        }
+    }
+
+    /// Estimated part of the reflected light that comes through the cell.
+    fn mean_light(&self, branch: &Branch) -> f64 {
+        let sum: f64 = branch.rays.iter().map(|&ray| self.shots[ray].y).sum();
+        sum / branch.rays.len() as f64 * branch.cell.projected_solid_angle()
+    }
+
+    /// Shoots one more ray into the cell and returns its tested value.
+    fn shoot(&mut self, branch: &mut Branch) -> Result<f64, GatherError> {
+        let s = match self.points {
+            Points::Random => [self.rng.random(), self.rng.random()],
+            Points::LowDiscrepancy => r2_point(&mut branch.sequence),
+        };
+        let at = branch.cell.at(s);
+        let direction = self.frame.to_world(branch.cell.direction(at));
+        let sample = self.source.sample(direction);
+        let radiance = sample.radiance;
+        if !is_colour(radiance) {
+            return Err(GatherError::Radiance { direction, radiance });
+        }
+        // Written so that NaN is refused as well.
+        if !(sample.distance > 0.0) {
+            return Err(GatherError::Distance { direction, distance: sample.distance });
+        }
+        let reflectance = (self.reflectance)(direction);
+        if !is_colour(reflectance) {
+            return Err(GatherError::Reflectance { direction, reflectance });
+        }
+        let y = luminance(reflectance * radiance);
+        branch.rays.push(self.shots.len());
+        branch.tested += 1;
+        let ray = Ray { direction, radiance, distance: sample.distance, moment: DVec3::ZERO, cell: 0 };
+        self.shots.push(Shot { ray, at, y });
+        Ok(y)
+    }
+}
+
+fn is_colour(rgb: DVec3) -> bool {
+    rgb.is_finite() && rgb.min_element() >= 0.0
+}
+
+/// The next point of the R2 sequence: multiples of the inverse of the plastic number and of its square, modulo 1.
+fn r2_point((start, taken): &mut ([f64; 2], u32)) -> [f64; 2] {
+    const STEPS: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_2];
+    let k = f64::from(*taken);
+    *taken += 1;
+    let fraction = |x: f64| x - x.floor();
+    [fraction(start[0] + k * STEPS[0]), fraction(start[1] + k * STEPS[1])]
+}

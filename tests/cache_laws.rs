@@ -1,0 +1,177 @@
+//! Law: a cache answers by its records where they are valid, and nowhere else.
+
+mod bounds;
+mod seeds;
+
+use bounds::ilv::{CACHE_SUM, DISTANCE};
+use proptest::prelude::*;
+use rand::RngExt;
+use rand_pcg::Pcg64;
+use steradian::{
+    glam::DVec3,
+    ilv::{AdaptiveSampler, Cache, CacheError, Frame, LightVector, Sample, Validity, ValidityError},
+};
+
+/// The light vector of a small sky over `normal`, with surfaces at `distance`.
+fn vector(normal: DVec3, distance: f64, rng: &mut Pcg64) -> LightVector {
+    let tint = DVec3::new(rng.random(), rng.random(), rng.random());
+    let mut sky = |direction: DVec3| Sample { radiance: tint * (1.5 + direction.x + 0.5 * direction.y), distance };
+    let sampler = AdaptiveSampler::stratified(12).unwrap();
+    *sampler.gather(Frame::new(normal).unwrap(), &mut sky, rng).unwrap().vector()
+}
+
+/// A direction within about 50° of +z.
+fn upward(rng: &mut Pcg64) -> DVec3 {
+    DVec3::new(rng.random_range(-0.8..0.8), rng.random_range(-0.8..0.8), 1.0).normalize()
+}
+
+/// A place in a slab, thin enough for records to see over each other's front.
+fn place(rng: &mut Pcg64) -> DVec3 {
+    DVec3::new(rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0), rng.random_range(-0.02..0.02))
+}
+
+fn random_cache(accuracy: f64, records: usize, rng: &mut Pcg64) -> Cache {
+    let mut cache = Cache::new(Validity::new(accuracy, 0.05, 0.8).unwrap());
+    for _ in 0..records {
+        let normal = upward(rng);
+        let distance = rng.random_range(0.02..2.0);
+        cache.insert(place(rng), normal, vector(normal, distance, rng)).unwrap();
+    }
+    cache
+}
+
+/// The interpolation written out over all records, without any index.
+fn naive(cache: &Cache, position: DVec3, normal: DVec3, accuracy: f64) -> Option<DVec3> {
+    let (mut sum, mut total) = (DVec3::ZERO, 0.0);
+    for (at, facing, radius, vector) in cache.records() {
+        let cos = normal.dot(facing);
+        let in_front = (position - at).dot(normal + facing) / 2.0 < -0.01 * radius;
+        let error = position.distance(at) / radius + (1.0 - cos).max(0.0).sqrt();
+        if cos >= 0.5 && !in_front && error < accuracy {
+            let weight = 1.0 / error.max(1e-9) - 1.0 / accuracy;
+            sum += vector.turned(facing, normal) * weight;
+            total += weight;
+        }
+    }
+    (total > 0.0).then(|| sum / total)
+}
+
+proptest! {
+    #![proptest_config(seeds::config(40))]
+
+    #[test]
+    fn the_index_finds_what_a_search_of_all_records_finds(stream: u64, accuracy in 0.1..0.8_f64) {
+        let mut rng = seeds::rng(stream);
+        let cache = random_cache(accuracy, 60, &mut rng);
+        let mut answered = 0;
+        for _ in 0..100 {
+            let (position, normal) = (place(&mut rng), upward(&mut rng));
+            for (got, reach) in [
+                (cache.irradiance(position, normal), accuracy),
+                (cache.irradiance_relaxed(position, normal), accuracy * Cache::RELAXATION),
+            ] {
+                let want = naive(&cache, position, normal, reach);
+                match (got, want) {
+                    (Some(got), Some(want)) => {
+                        answered += 1;
+                        let off = (got - want).abs().max_element();
+                        prop_assert!(off <= CACHE_SUM * want.max_element(), "{got} {want}, bound {CACHE_SUM:e}");
+                    }
+                    (got, want) => prop_assert_eq!(got, want),
+                }
+            }
+        }
+        prop_assert!(accuracy < 0.4 || answered > 0, "no lookup was answered");
+    }
+
+    #[test]
+    fn a_wider_accuracy_answers_wherever_a_narrower_one_does(stream: u64, accuracy in 0.1..0.5_f64) {
+        let rng = seeds::rng(stream);
+        let narrow = random_cache(accuracy, 40, &mut rng.clone());
+        let wide = random_cache(1.3 * accuracy, 40, &mut rng.clone());
+        let mut rng = seeds::rng(!stream);
+        for _ in 0..200 {
+            let (position, normal) = (place(&mut rng), upward(&mut rng));
+            if narrow.irradiance(position, normal).is_some() {
+                prop_assert!(wide.irradiance(position, normal).is_some());
+                prop_assert!(narrow.irradiance_relaxed(position, normal).is_some());
+            }
+        }
+    }
+
+    #[test]
+    fn a_radius_grows_no_faster_than_the_distance_to_another_record(stream: u64) {
+        let cache = random_cache(0.3, 60, &mut seeds::rng(stream));
+        for (at, _, radius, _) in cache.records() {
+            prop_assert!((0.05..=0.8).contains(&radius) || radius < 0.05 + DISTANCE, "{radius}");
+            for (there, _, other, _) in cache.records() {
+                let allowed = other + at.distance(there);
+                prop_assert!(radius <= allowed * (1.0 + DISTANCE), "{radius} > {allowed}");
+            }
+        }
+    }
+
+    #[test]
+    fn on_one_plane_the_answer_lies_between_those_of_the_records(stream: u64) {
+        let mut rng = seeds::rng(stream);
+        let mut cache = Cache::new(Validity::new(0.5, 0.1, 1.0).unwrap());
+        for _ in 0..20 {
+            let at = DVec3::new(rng.random(), rng.random(), 0.0);
+            cache.insert(at, DVec3::Z, vector(DVec3::Z, 1.0, &mut rng)).unwrap();
+        }
+        let all: Vec<DVec3> = cache.records().map(|(.., vector)| vector.irradiance()).collect();
+        let low = all.iter().copied().reduce(DVec3::min).unwrap() * (1.0 - CACHE_SUM);
+        let high = all.iter().copied().reduce(DVec3::max).unwrap() * (1.0 + CACHE_SUM);
+        for _ in 0..50 {
+            let at = DVec3::new(rng.random(), rng.random(), 0.0);
+            if let Some(irradiance) = cache.irradiance(at, DVec3::Z) {
+                prop_assert!(irradiance.cmpge(low).all() && irradiance.cmple(high).all());
+            }
+        }
+    }
+}
+
+#[test]
+fn a_record_answers_for_its_own_place() {
+    let mut rng = seeds::rng(1);
+    let (at, stored) = (DVec3::new(3.0, -2.0, 1.0), vector(DVec3::Z, 1.0, &mut rng));
+    let mut cache = Cache::new(Validity::new(0.3, 0.1, 1.0).unwrap());
+    cache.insert(at, DVec3::Z, stored).unwrap();
+    assert_eq!(cache.irradiance(at, DVec3::Z), Some(stored.irradiance()));
+    assert_eq!(cache.len(), 1);
+}
+
+#[test]
+fn nothing_leaks_through_a_thin_wall_or_over_an_edge() {
+    let mut rng = seeds::rng(2);
+    let mut cache = Cache::new(Validity::new(1.0, 0.5, 1.0).unwrap());
+    cache.insert(DVec3::ZERO, DVec3::X, vector(DVec3::X, 1.0, &mut rng)).unwrap();
+    // The far side of a wall a millimetre thick, the floor that meets it, and a step in front of it.
+    assert_eq!(cache.irradiance(DVec3::new(-0.001, 0.0, 0.0), DVec3::NEG_X), None);
+    assert_eq!(cache.irradiance(DVec3::ZERO, DVec3::Y), None);
+    assert_eq!(cache.irradiance(DVec3::new(-0.1, 0.0, 0.0), DVec3::X), None);
+    assert!(cache.irradiance(DVec3::new(0.0, 0.1, 0.0), DVec3::X).is_some());
+}
+
+#[test]
+fn what_is_no_place_is_refused_when_stored_and_unanswered_when_asked_for() {
+    let mut rng = seeds::rng(3);
+    let stored = vector(DVec3::Z, 1.0, &mut rng);
+    let mut cache = Cache::new(Validity::new(0.3, 0.1, 1.0).unwrap());
+    for bad in [DVec3::NAN, DVec3::new(f64::INFINITY, 0.0, 0.0), DVec3::new(0.0, 1e300, 0.0)] {
+        assert!(matches!(cache.insert(bad, DVec3::Z, stored), Err(CacheError::Position { .. })), "{bad}");
+        assert_eq!(cache.irradiance(bad, DVec3::Z), None);
+    }
+    for bad in [DVec3::ZERO, DVec3::NAN, DVec3::splat(1.0)] {
+        assert!(matches!(cache.insert(DVec3::ZERO, bad, stored), Err(CacheError::Normal { .. })), "{bad}");
+        assert_eq!(cache.irradiance(DVec3::ZERO, bad), None);
+    }
+    assert!(cache.is_empty());
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 11.0] {
+        assert!(matches!(Validity::new(bad, 0.1, 1.0), Err(ValidityError::Accuracy { .. })), "{bad}");
+    }
+    for (low, high) in [(0.0, 1.0), (2.0, 1.0), (f64::NAN, 1.0), (0.1, f64::INFINITY), (0.1, f64::NAN)] {
+        assert!(matches!(Validity::new(0.3, low, high), Err(ValidityError::Radius { .. })), "{low} {high}");
+    }
+    assert!(matches!(Validity::for_scene(0.3, f64::NAN), Err(ValidityError::Radius { .. })));
+}
