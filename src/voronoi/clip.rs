@@ -105,9 +105,9 @@ impl Cell {
         }
     }
 
-    /// Two planes make a lune, unless they are the same one; only the horizon and a bisector can be.
+    /// Two planes make a lune, unless they are the same one: the horizon and a bisector, or two sites of one direction.
     fn cut_hemisphere(&mut self, view: &View<'_>, first: Edge, edge: Edge) {
-        if view.pole.is_some() && first.normal.cross(edge.normal).length_squared() < SMALLEST_SINE {
+        if first.normal.cross(edge.normal).length_squared() < SMALLEST_SINE {
             let (a, c) = (view.plane(first.id), view.plane(edge.id));
             if AXES.iter().all(|axis| orientation(view.site, a, c, Plane::Normal(axis)) == 0) {
                 self.empty = first.normal.dot(edge.normal) < 0.0;
