@@ -1,0 +1,216 @@
+//! One cell, by cutting the sphere with one half-space after another.
+//!
+//! # Model
+//! A cell is the cyclic list of its edges, counter-clockwise seen from outside; an edge is a plane whose unit normal
+//! points into the cell, and the corner at its start is the direction (normal before) × (normal). Nothing, one edge, two
+//! edges and more are the whole sphere, a hemisphere, a lune and a polygon. A cut keeps the edges that have a point
+//! strictly inside and puts the new plane between the last and the first of them: Sutherland and Hodgman's step, in
+//! which corners are always cross products of two planes and all sides are exact.
+//!
+//! # Guarantees
+//! An edge of the list has positive length, so that planes that only touch the cell are not in it.
+
+use glam::DVec3;
+
+use super::predicate::{Plane, orientation, side};
+use super::ray::Ray;
+use super::{HORIZON, twofold::Twofold3};
+
+/// Corners whose sine is below this have no trusted double for `reach`.
+const SMALLEST_SINE: f64 = 1.0 / 1024.0;
+
+/// Slack of `reach`: corners are right to 16 u / `SMALLEST_SINE` < 2⁻³⁸, and cos 2ρ changes by at most four times that.
+const REACH_SLACK: f64 = 1.0 / (1u64 << 35) as f64;
+
+/// The rays of a diagram, seen from one of its sites.
+#[derive(Clone, Copy)]
+pub(super) struct View<'a> {
+    pub site: &'a Ray,
+    pub rays: &'a [Ray],
+    pub pole: Option<&'a Ray>,
+}
+
+impl<'a> View<'a> {
+    /// The plane of constraint `id`: the bisector with that site, or the horizon.
+    pub fn plane(&self, id: u32) -> Plane<'a> {
+        match self.pole {
+            Some(pole) if id == HORIZON => Plane::Normal(pole),
+            _ => Plane::Bisector(&self.rays[id as usize]),
+        }
+    }
+
+    /// Unit normal of constraint `id`, right to 6 u.
+    fn normal(&self, id: u32) -> DVec3 {
+        let other = match self.plane(id) {
+            Plane::Normal(pole) => return pole.unit,
+            Plane::Bisector(other) => other,
+        };
+        let difference = (self.site.unit - other.unit) + (self.site.rest - other.rest);
+        let square = difference.length_squared();
+        // Below 2⁻⁴⁰ the error of the rests, 2⁻¹⁰⁰, begins to show.
+        if square > 1.0 / (1u128 << 80) as f64 {
+            difference / square.sqrt()
+        } else {
+            self.site.bisector(other).hi()
+        }
+    }
+}
+
+/// An edge of a cell.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Edge {
+    /// The site across it, or `HORIZON`.
+    pub id: u32,
+    /// Unit normal of its plane, into the cell.
+    pub normal: DVec3,
+    /// The normal of the edge before × `normal`: the corner where the edge starts, with the sine as its length.
+    pub start: DVec3,
+    /// Cosine of the angle from the site to that corner; −1 where it is not known well.
+    cosine: f64,
+}
+
+/// A cell under the knife.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Cell {
+    pub edges: Vec<Edge>,
+    kept: Vec<Edge>,
+    sides: Vec<i32>,
+    pub empty: bool,
+}
+
+impl Cell {
+    /// Back to the whole sphere.
+    pub fn reset(&mut self) {
+        self.edges.clear();
+        self.empty = false;
+    }
+
+    /// A site whose direction has a smaller dot product with the cell's site cannot cut the cell.
+    ///
+    /// If all corners are within ρ < π/2 of the site then so is the cell, and only sites within 2ρ reach it.
+    pub fn reach(&self) -> f64 {
+        let lowest = self.edges.iter().fold(1.0, |lowest: f64, edge| lowest.min(edge.cosine));
+        if self.edges.len() < 3 || lowest <= 0.0 { -2.0 } else { 2.0 * lowest * lowest - 1.0 - REACH_SLACK }
+    }
+
+    /// Cuts the cell with the plane of `id`.
+    pub fn cut(&mut self, view: &View<'_>, id: u32) {
+        let normal = view.normal(id);
+        let edge = Edge { id, normal, start: DVec3::ZERO, cosine: -1.0 };
+        match *self.edges.as_slice() {
+            [] => self.edges.push(edge),
+            [first] => self.cut_hemisphere(view, first, edge),
+            [first, second] => self.cut_lune(view, first, second, edge),
+            _ => self.cut_polygon(view, edge),
+        }
+    }
+
+    /// Two planes make a lune, unless they are the same one: the horizon and a bisector, or two sites of one direction.
+    fn cut_hemisphere(&mut self, view: &View<'_>, first: Edge, edge: Edge) {
+        if first.normal.cross(edge.normal).length_squared() < SMALLEST_SINE {
+            let (a, c) = (view.plane(first.id), view.plane(edge.id));
+            if AXES.iter().all(|axis| orientation(view.site, a, c, Plane::Normal(axis)) == 0) {
+                self.empty = first.normal.dot(edge.normal) < 0.0;
+                return;
+            }
+        }
+        self.rebuild(view, &[first], edge);
+    }
+
+    fn cut_lune(&mut self, view: &View<'_>, first: Edge, second: Edge, edge: Edge) {
+        let (a, b, c) = (view.plane(first.id), view.plane(second.id), view.plane(edge.id));
+        match side(second.start, edge.normal, view.site, a, b, c) {
+            1 => self.rebuild(view, &[first, second], edge),
+            -1 => self.rebuild(view, &[second, first], edge),
+            _ => {
+                // All three planes contain the corners ±(a × b): a cut through the middle of both edges, or none.
+                // The sides of these middles are the signs of (a × c)·(a × b) and (c × b)·(a × b), parallel vectors.
+                let corner = a.twofold(view.site).cross(b.twofold(view.site)).hi().abs();
+                let axis = Plane::Normal(&AXES[corner.to_array().iter().position(|&x| x == corner.max_element()).unwrap_or(0)]);
+                let up = orientation(view.site, a, b, axis);
+                let at_first = up * orientation(view.site, a, c, axis);
+                let at_second = up * orientation(view.site, c, b, axis);
+                match (at_first >= 0, at_second >= 0) {
+                    (true, true) => {}
+                    (true, false) if at_first > 0 => self.rebuild(view, &[first], edge),
+                    (false, true) if at_second > 0 => self.rebuild(view, &[second], edge),
+                    _ => self.empty = true,
+                }
+            }
+        }
+    }
+
+    fn cut_polygon(&mut self, view: &View<'_>, edge: Edge) {
+        let n = self.edges.len();
+        let c = view.plane(edge.id);
+        self.sides.clear();
+        let mut before = self.edges[n - 1].id;
+        for corner in &self.edges {
+            let (a, b) = (before, corner.id);
+            self.sides.push(side(corner.start, edge.normal, view.site, view.plane(a), view.plane(b), c));
+            before = corner.id;
+        }
+        if self.sides.iter().all(|&s| s >= 0) {
+            return;
+        }
+        // The edge that comes in: it starts at or beyond the plane and ends inside.
+        let end = |k: usize| self.sides[if k + 1 == n { 0 } else { k + 1 }];
+        let Some(first) = (0..n).find(|&k| self.sides[k] <= 0 && end(k) > 0) else {
+            self.empty = true;
+            return;
+        };
+        let mut kept = core::mem::take(&mut self.kept);
+        kept.clear();
+        let mut k = first;
+        loop {
+            kept.push(self.edges[k]);
+            if end(k) <= 0 || kept.len() == n {
+                break;
+            }
+            k = if k + 1 == n { 0 } else { k + 1 };
+        }
+        self.rebuild(view, &kept, edge);
+        self.kept = kept;
+    }
+
+    /// The cell of the edges `kept` and then `edge`, whose corners are new.
+    fn rebuild(&mut self, view: &View<'_>, kept: &[Edge], edge: Edge) {
+        self.edges.clear();
+        self.edges.extend_from_slice(kept);
+        self.edges.push(edge);
+        let n = self.edges.len();
+        self.set_corner(view, n - 2, n - 1);
+        self.set_corner(view, n - 1, 0);
+    }
+
+    fn set_corner(&mut self, view: &View<'_>, before: usize, at: usize) {
+        let start = self.edges[before].normal.cross(self.edges[at].normal);
+        let sine = start.length();
+        self.edges[at].start = start;
+        self.edges[at].cosine = if sine > SMALLEST_SINE { start.dot(view.site.unit) / sine } else { -1.0 };
+    }
+}
+
+/// The coordinate axes as rays.
+const AXES: [Ray; 3] = [axis(DVec3::X), axis(DVec3::Y), axis(DVec3::Z)];
+
+const fn axis(unit: DVec3) -> Ray {
+    Ray { exact: unit, unit, rest: DVec3::ZERO }
+}
+
+/// The corner where planes `before` and `at` meet, as a unit vector to more than double precision.
+///
+/// For bisectors of the site i with j and k, u_i − u_k may be replaced by u_j − u_k, which makes a better angle when j
+/// and k are close to each other.
+pub(super) fn sharp_corner(view: &View<'_>, before: u32, at: u32) -> Twofold3 {
+    let (a, b) = (view.plane(before), view.plane(at));
+    let normal = a.twofold(view.site);
+    let mut corner = normal.cross(b.twofold(view.site));
+    if let (Plane::Bisector(j), Plane::Bisector(k)) = (a, b) {
+        let other = normal.cross(j.bisector(k));
+        if other.hi().length_squared() > corner.hi().length_squared() {
+            corner = other;
+        }
+    }
+    corner
+}

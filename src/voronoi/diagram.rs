@@ -1,0 +1,149 @@
+//! The finished diagram.
+
+use glam::DVec3;
+
+/// In place of a site's index: what lies across an edge on the horizon of a hemisphere.
+pub const HORIZON: u32 = u32::MAX;
+
+/// A Voronoi diagram of the sphere or of a hemisphere.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Diagram {
+    pole: Option<DVec3>,
+    sites: Vec<DVec3>,
+    owners: Vec<u32>,
+    solid_angles: Vec<f64>,
+    vector_moments: Vec<DVec3>,
+    /// Cell i has the entries from `neighbor_ends[i − 1]` to `neighbor_ends[i]`, and so on.
+    neighbor_ends: Vec<u32>,
+    neighbors: Vec<u32>,
+    vertex_ends: Vec<u32>,
+    vertices: Vec<DVec3>,
+}
+
+/// The cell of a site.
+#[derive(Clone, Copy, Debug)]
+pub struct Cell<'a> {
+    diagram: &'a Diagram,
+    index: usize,
+}
+
+impl Diagram {
+    /// Number of sites; each has a cell, if an empty one.
+    pub fn len(&self) -> usize {
+        self.sites.len()
+    }
+
+    /// Whether there is no site: true only of [`Diagram::default`].
+    pub fn is_empty(&self) -> bool {
+        self.sites.is_empty()
+    }
+
+    /// The cell of site `index`.
+    ///
+    /// # Panics
+    /// If `index` is not below [`len`](Self::len), as in a slice.
+    pub fn cell(&self, index: usize) -> Cell<'_> {
+        assert!(index < self.len(), "the cell {index} was asked of a diagram of {} sites", self.len());
+        Cell { diagram: self, index }
+    }
+
+    /// All cells, in the order of the sites.
+    pub fn cells(&self) -> impl ExactSizeIterator<Item = Cell<'_>> {
+        (0..self.len()).map(|index| Cell { diagram: self, index })
+    }
+
+    /// The solid angles of the cells in steradians, in the order of the sites.
+    pub fn solid_angles(&self) -> &[f64] {
+        &self.solid_angles
+    }
+
+    /// The vector moments ∫ ω dω of the cells, in the order of the sites.
+    pub fn vector_moments(&self) -> &[DVec3] {
+        &self.vector_moments
+    }
+
+    pub(super) fn reset(&mut self, pole: Option<DVec3>) {
+        self.pole = pole;
+        self.sites.clear();
+        self.owners.clear();
+        self.solid_angles.clear();
+        self.vector_moments.clear();
+        self.neighbor_ends.clear();
+        self.neighbors.clear();
+        self.vertex_ends.clear();
+        self.vertices.clear();
+    }
+
+    /// Adds a cell that has no outline yet.
+    pub(super) fn push(&mut self, site: DVec3, owner: usize, solid_angle: f64, vector_moment: DVec3) {
+        self.sites.push(site);
+        self.owners.push(owner as u32);
+        self.solid_angles.push(solid_angle);
+        self.vector_moments.push(vector_moment);
+        self.neighbor_ends.push(self.neighbors.len() as u32);
+        self.vertex_ends.push(self.vertices.len() as u32);
+    }
+
+    /// Gives the last cell its outline.
+    pub(super) fn push_outline(&mut self, neighbors: impl Iterator<Item = u32>, vertices: impl Iterator<Item = DVec3>) {
+        self.neighbors.extend(neighbors);
+        self.vertices.extend(vertices);
+        if let Some(end) = self.neighbor_ends.last_mut() {
+            *end = self.neighbors.len() as u32;
+        }
+        if let Some(end) = self.vertex_ends.last_mut() {
+            *end = self.vertices.len() as u32;
+        }
+    }
+
+    /// Replaces neighbours by the owners of their cells, once all are known.
+    pub(super) fn name_owners(&mut self) {
+        for neighbor in &mut self.neighbors {
+            if *neighbor != HORIZON {
+                *neighbor = self.owners[*neighbor as usize];
+            }
+        }
+    }
+}
+
+impl<'a> Cell<'a> {
+    /// Index of the site.
+    pub fn site(&self) -> usize {
+        self.index
+    }
+
+    /// Lowest index of a site with the same direction: the one whose cell is not empty. Mostly `site()` itself.
+    pub fn owner(&self) -> usize {
+        self.diagram.owners[self.index] as usize
+    }
+
+    /// Direction of the site, a unit vector.
+    pub fn direction(&self) -> DVec3 {
+        self.diagram.sites[self.index]
+    }
+
+    /// Solid angle in steradians.
+    pub fn solid_angle(&self) -> f64 {
+        self.diagram.solid_angles[self.index]
+    }
+
+    /// Vector moment ∫ ω dω.
+    pub fn vector_moment(&self) -> DVec3 {
+        self.diagram.vector_moments[self.index]
+    }
+
+    /// The corners, unit vectors, counter-clockwise seen from outside.
+    pub fn vertices(&self) -> &'a [DVec3] {
+        part(&self.diagram.vertices, &self.diagram.vertex_ends, self.index)
+    }
+
+    /// The sites across the edges.
+    pub fn neighbors(&self) -> &'a [u32] {
+        part(&self.diagram.neighbors, &self.diagram.neighbor_ends, self.index)
+    }
+}
+
+fn part<'a, T>(all: &'a [T], ends: &[u32], index: usize) -> &'a [T] {
+    let start = if index == 0 { 0 } else { ends[index - 1] };
+    &all[start as usize..ends[index] as usize]
+}

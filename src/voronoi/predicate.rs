@@ -1,0 +1,144 @@
+//! On which side of a plane the corner of two others lies: the one decision that shapes every cell.
+//!
+//! # Model
+//! Seen from the site with unit vector u, a plane through the origin has the normal u − v (the bisector of that site
+//! and another one, v), or a given vector w (the horizon, a coordinate axis). The corner of planes a, b is the
+//! direction a × b; its side of plane c is the sign of det(a, b, c).
+//!
+//! # Guarantees
+//! The sign is exact. Three stages: doubles with an error bound, twofold numbers with an error bound, and integers.
+
+use glam::DVec3;
+
+use super::exact::{Integer, Root, sign_of_four};
+use super::ray::{Ray, parts};
+use super::twofold::Twofold3;
+
+/// Bound of the error of (a × b)·c in doubles for unit normals that are right to 6 u each, u = 2⁻⁵³:
+/// 3·6 u from the normals, at most 4 u from the cross product and 4 u from the dot product; rounded up.
+const DOUBLE_BOUND: f64 = 32.0 / 9_007_199_254_740_992.0;
+
+/// The same for twofold unit normals: 2⁻⁹⁶ each and a few 2⁻¹⁰⁰ from the products; rounded up generously.
+const TWOFOLD_BOUND: f64 = 1.0 / (1u128 << 90) as f64;
+
+/// A plane through the origin, seen from a site.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Plane<'a> {
+    /// The bisector of the site and this one.
+    Bisector(&'a Ray),
+    /// The plane of this normal.
+    Normal(&'a Ray),
+}
+
+impl Plane<'_> {
+    /// Unit normal to twice the precision, positive towards the site or along the given normal.
+    pub fn twofold(self, site: &Ray) -> Twofold3 {
+        match self {
+            Self::Bisector(other) => site.bisector(other),
+            Self::Normal(normal) => normal.twofold_unit(),
+        }
+    }
+}
+
+/// Sign of det(a, b, c), where `corner` is a × b in doubles and `normal` is c, of unit normals right to 6 u.
+/// At most two of the planes are given normals.
+pub(super) fn side(corner: DVec3, normal: DVec3, site: &Ray, a: Plane<'_>, b: Plane<'_>, c: Plane<'_>) -> i32 {
+    let estimate = corner.dot(normal);
+    if estimate.abs() > DOUBLE_BOUND { if estimate > 0.0 { 1 } else { -1 } } else { orientation(site, a, b, c) }
+}
+
+/// Sign of det(a, b, c); at most two of the planes are given normals.
+#[cold]
+pub(super) fn orientation(site: &Ray, a: Plane<'_>, b: Plane<'_>, c: Plane<'_>) -> i32 {
+    let estimate = a.twofold(site).cross(b.twofold(site)).dot(c.twofold(site)).hi;
+    if estimate.abs() > TWOFOLD_BOUND {
+        return if estimate > 0.0 { 1 } else { -1 };
+    }
+    exact_orientation(site, a, b, c)
+}
+
+/// Bits of the components of `ray` as integers over a common power of two.
+fn bits(ray: &Ray) -> usize {
+    let lowest = ray.exact.to_array().map(parts).iter().filter(|p| p.1 != 0).map(lowest_bit).min();
+    // The largest component is in [1, 2).
+    (1 - lowest.unwrap_or(0)).max(1) as usize
+}
+
+fn lowest_bit(&(_, mantissa, exponent): &(bool, u64, i32)) -> i32 {
+    exponent + mantissa.trailing_zeros() as i32
+}
+
+/// Sign of det(a, b, c) by integers alone.
+pub(super) fn exact_orientation(site: &Ray, a: Plane<'_>, b: Plane<'_>, c: Plane<'_>) -> i32 {
+    let of = |plane| match plane {
+        Plane::Bisector(ray) | Plane::Normal(ray) => bits(ray),
+    };
+    let most = bits(site).max(of(a)).max(of(b)).max(of(c));
+    // Capacities from `sign_of_four`: 64 N ≥ 32 B + 44. The largest component is below 2 and no bit is below 2⁻¹⁰⁷⁴.
+    match most {
+        0..=70 => determinant_sign::<36>(site, a, b, c),
+        71..=142 => determinant_sign::<72>(site, a, b, c),
+        _ => determinant_sign::<540>(site, a, b, c),
+    }
+}
+
+/// Sign of det(a, b, c), multiplied out over the vectors p along the rays, with lengths as square roots of |p|².
+///
+/// With u = p/|p| and [pqr] = det(p, q, r), positive factors left out:
+/// ```text
+/// det(u_i − u_j, u_i − u_k, u_i − u_l) ~ [ijk]|l| − [ijl]|k| − [jkl]|i| + [ikl]|j|
+/// det(u_i − u_j, u_i − u_k, w)         ~ [ijw]|k| + [jkw]|i| + [kiw]|j|
+/// det(u_i − u_j, w, v)                 ~ [iwv]|j| − [jwv]|i|
+/// ```
+fn determinant_sign<const N: usize>(site: &Ray, a: Plane<'_>, b: Plane<'_>, c: Plane<'_>) -> i32 {
+    use Plane::{Bisector, Normal};
+    let i = integers::<N>(site);
+    let zero = (Integer::ZERO, Integer::ZERO);
+    let term = |p: &Vector<N>, q: &Vector<N>, r: &Vector<N>, of: &Vector<N>| (bracket(p, q, r), dot(of, of));
+    let minus = |(factor, radicand): Root<N>| (factor.negate(), radicand);
+    match (a, b, c) {
+        (Bisector(j), Bisector(k), Bisector(l)) => {
+            let (j, k, l) = (integers(j), integers(k), integers(l));
+            sign_of_four(&[
+                term(&i, &j, &k, &l),
+                minus(term(&i, &j, &l, &k)),
+                minus(term(&j, &k, &l, &i)),
+                term(&i, &k, &l, &j),
+            ])
+        }
+        (Bisector(j), Bisector(k), Normal(w)) => {
+            let (j, k, w) = (integers(j), integers(k), integers(w));
+            sign_of_four(&[term(&i, &j, &w, &k), term(&j, &k, &w, &i), term(&k, &i, &w, &j), zero])
+        }
+        (Bisector(j), Normal(w), Normal(v)) => {
+            let (j, w, v) = (integers(j), integers(w), integers(v));
+            sign_of_four(&[term(&i, &w, &v, &j), minus(term(&j, &w, &v, &i)), zero, zero])
+        }
+        (Normal(w), Normal(v), Normal(t)) => bracket::<N>(&integers(w), &integers(v), &integers(t)).sign(),
+        // Cyclic order does not change a determinant: bring the bisectors to the front.
+        _ => determinant_sign::<N>(site, b, c, a),
+    }
+}
+
+type Vector<const N: usize> = [Integer<N>; 3];
+
+/// The vector along `ray`, multiplied by the power of two that makes its components integers.
+fn integers<const N: usize>(ray: &Ray) -> Vector<N> {
+    let lowest = 1 - bits(ray) as i32;
+    ray.exact.to_array().map(|component| {
+        let (negative, mantissa, exponent) = parts(component);
+        let zeros = mantissa.trailing_zeros().min(63);
+        let shift = (exponent + zeros as i32 - lowest).max(0) as usize;
+        if mantissa == 0 { Integer::ZERO } else { Integer::from_parts(negative, mantissa >> zeros, shift) }
+    })
+}
+
+fn dot<const N: usize>(a: &Vector<N>, b: &Vector<N>) -> Integer<N> {
+    a[0].multiply(&b[0]).add(&a[1].multiply(&b[1])).add(&a[2].multiply(&b[2]))
+}
+
+/// det(a, b, c).
+fn bracket<const N: usize>(a: &Vector<N>, b: &Vector<N>, c: &Vector<N>) -> Integer<N> {
+    let minor = |s: usize, t: usize| b[s].multiply(&c[t]).subtract(&b[t].multiply(&c[s]));
+    dot(a, &[minor(1, 2), minor(2, 0), minor(0, 1)])
+}

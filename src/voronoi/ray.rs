@@ -1,0 +1,78 @@
+//! A direction given by doubles of any size: the ray itself, exactly, and its unit vector to twice the precision.
+
+use glam::DVec3;
+
+use super::twofold::{Twofold3, exponent, times_power};
+
+/// Power of two at which products of components neither overflow nor underflow.
+const ROOM: i32 = 500;
+
+/// A ray from the origin.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ray {
+    /// A vector along the ray, largest component in [1, 2).
+    pub exact: DVec3,
+    /// The unit vector along the ray is `unit` + `rest`, to about 2⁻¹⁰⁰.
+    pub unit: DVec3,
+    pub rest: DVec3,
+}
+
+impl Ray {
+    /// The ray through `v`, which is finite and not zero.
+    ///
+    /// Scaling is by a power of two and exact, but for components below 2⁻¹⁰²² of the largest: these are rounded to
+    /// multiples of 2⁻¹⁰⁷⁴ of it.
+    pub fn new(v: DVec3) -> Self {
+        // Adding zero turns −0.0 into 0.0, so that both give the same bits.
+        let exact = times_power(v, -exponent(v)) + DVec3::ZERO;
+        let unit = Twofold3::from_sum(exact, DVec3::ZERO).unit();
+        Self { exact, unit: unit.hi(), rest: unit.lo() }
+    }
+
+    /// Whether both are the same direction, decided exactly.
+    pub fn is_along(&self, other: &Self) -> bool {
+        let (a, b) = (self.exact, other.exact);
+        let same = |p: f64, q: f64, r: f64, s: f64| product(p, q) == product(r, s);
+        self.unit.dot(other.unit) > 0.5
+            && same(a.x, b.y, a.y, b.x)
+            && same(a.y, b.z, a.z, b.y)
+            && same(a.z, b.x, a.x, b.z)
+    }
+
+    /// The unit vector, to twice the precision.
+    pub fn twofold_unit(&self) -> Twofold3 {
+        Twofold3::from_sum(self.unit, self.rest)
+    }
+
+    /// Unit normal of the bisector of two distinct rays, towards `self`, to about 2⁻⁹⁶ however close they are.
+    ///
+    /// With u, v the unit vectors and c = v × u: u − v = c × (u + v) / (1 + u·v), and c has no cancellation.
+    pub fn bisector(&self, other: &Self) -> Twofold3 {
+        let (u, v) = (self.twofold_unit(), other.twofold_unit());
+        if self.unit.dot(other.unit) < 0.0 {
+            return u.add(v.negate()).unit();
+        }
+        let cross = Twofold3::from_cross(times_power(other.exact, ROOM), times_power(self.exact, ROOM));
+        cross.unit().cross(u.add(v)).unit()
+    }
+}
+
+/// The product `a b` as (negative, odd factor, power of two): equal numbers have equal triples.
+fn product(a: f64, b: f64) -> (bool, u128, i32) {
+    let ((s, m, e), (t, n, f)) = (parts(a), parts(b));
+    let product = u128::from(m) * u128::from(n);
+    if product == 0 {
+        return (false, 0, 0);
+    }
+    let zeros = product.trailing_zeros();
+    (s != t, product >> zeros, e + f + zeros as i32)
+}
+
+/// A finite double as (negative, mantissa, exponent): ±mantissa 2^exponent.
+pub(super) fn parts(a: f64) -> (bool, u64, i32) {
+    let bits = a.to_bits();
+    let biased = ((bits >> 52) & 0x7ff) as i32;
+    let fraction = bits & ((1 << 52) - 1);
+    let mantissa = if biased == 0 { fraction } else { fraction | (1 << 52) };
+    (a.is_sign_negative(), mantissa, biased.max(1) - 1075)
+}
