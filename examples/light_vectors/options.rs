@@ -34,7 +34,7 @@ pub struct Options {
     pub out: PathBuf,
 
     /// Error at which a light vector stops being used (Ward's accuracy): smaller is slower and better
-    #[arg(long, default_value_t = 0.3, value_parser = parse_accuracy)]
+    #[arg(long, default_value_t = 0.4, value_parser = parse_accuracy)]
     pub accuracy: f64,
 
     /// Rays per pixel of `brute`

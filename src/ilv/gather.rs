@@ -78,7 +78,7 @@ pub enum GatherError {
         /// What the source answered.
         radiance: DVec3,
     },
-    /// The source answered with a distance that is not above zero.
+    /// The source answered with a negative or NaN distance.
     Distance {
         /// Direction of the ray.
         direction: DVec3,
@@ -105,7 +105,7 @@ impl fmt::Display for GatherError {
                 write!(f, "the radiance {radiance} from {direction} is not a finite colour of at least zero")
             }
             Self::Distance { direction, distance } => {
-                write!(f, "the distance {distance} towards {direction} is not above zero")
+                write!(f, "the distance {distance} towards {direction} is not at least zero")
             }
             Self::Reflectance { direction, reflectance } => {
                 write!(f, "the reflectance {reflectance} for light from {direction} is not a finite colour of at least zero")
@@ -343,8 +343,7 @@ where
         if !is_colour(radiance) {
             return Err(GatherError::Radiance { direction, radiance });
         }
-        // Written so that NaN is refused as well.
-        if !(sample.distance > 0.0) {
+        if sample.distance.is_nan() || sample.distance < 0.0 {
             return Err(GatherError::Distance { direction, distance: sample.distance });
         }
         let reflectance = (self.reflectance)(direction);

@@ -7,7 +7,8 @@ use glam::DVec3;
 pub struct Sample {
     /// Incoming radiance, red, green and blue, in W/(m² sr) or any unit that is linear in it.
     pub radiance: DVec3,
-    /// Distance to the surface the ray met, in the unit of the scene; `f64::INFINITY` when it met none.
+    /// Distance to the surface the ray met, in the unit of the scene: 0 in an edge of the scene, `f64::INFINITY` when it
+    /// met none.
     pub distance: f64,
 }
 

@@ -72,8 +72,10 @@ impl Weighing<'_> {
             let projected = normal.dot(ray.moment);
             irradiance += ray.radiance * projected;
             vector_irradiance += ray.moment * luminance(ray.radiance);
-            weight += projected;
-            weight_by_distance += projected / ray.distance;
+            if projected > 0.0 {
+                weight += projected;
+                weight_by_distance += projected / ray.distance;
+            }
         }
         LightVector {
             irradiance,
@@ -105,9 +107,13 @@ impl Weighing<'_> {
         // Cells with a single ray: each with its successor in the ring, half the squared difference standing for each.
         let rings = self.members.chunks_exact(sectors as usize);
         for ring in rings.filter(|ring| ring.iter().all(|members| members.len() == 1)) {
-            let light = |members: &&[usize]| y(&members[0]) * w(&members[0]);
             for (here, there) in ring.iter().zip(ring.iter().cycle().skip(1)) {
-                let difference = light(here) - light(there);
+                let (here, there) = (&here[0], &there[0]);
+                let difference = if weights == Weights::LeafMeasure {
+                    y(here) * w(here) - y(there) * w(there)
+                } else {
+                    0.5 * (w(here) + w(there)) * (y(here) - y(there))
+                };
                 variance += 0.5 * difference * difference;
             }
         }

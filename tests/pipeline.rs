@@ -1,0 +1,123 @@
+//! Law: small pictures of both scenes by every method have the error that was measured for the method, and no more.
+//!
+//! The whole pipeline runs: camera, gathers, sequential tests, Voronoi weights, cache, interpolation. Errors are of the
+//! luminance of the indirect radiance, relative to its mean, against two independent halves of a brute-force reference,
+//! so that the noise of the reference does not count as error.
+
+mod bounds;
+mod seeds;
+mod tracer;
+
+use bounds::ilv::{CONSTANT_FIELD, PIPELINE, PIPELINE_DEVIATIONS};
+use steradian::{
+    glam::DVec3,
+    ilv::{AdaptiveSampler, Validity, Weights, luminance},
+};
+use tracer::{
+    Scene,
+    render::{self, Settings, View},
+};
+
+const SIZE: u32 = 40;
+const LIGHT_GRID: usize = 2;
+const REFERENCE_RAYS: u32 = 512;
+
+fn scene(name: &str) -> Scene {
+    match name {
+        "cornell" => Scene::cornell(),
+        "corridor" => Scene::corridor(),
+        _ => unreachable!("the table names two scenes"),
+    }
+}
+
+fn settings(method: &str, scene: &Scene, seed: u64) -> Settings {
+    let sampler = match method {
+        "brute" => AdaptiveSampler::stratified(64).unwrap(),
+        "original" => AdaptiveSampler::fixed(32, 32).unwrap(),
+        "paper" => AdaptiveSampler::paper(),
+        "stratified" => AdaptiveSampler::stratified(208).unwrap(),
+        "default" => AdaptiveSampler::default(),
+        _ => unreachable!("the table names five methods"),
+    };
+    let validity = (method != "brute").then(|| Validity::for_scene(0.4, scene.size).unwrap());
+    Settings { sampler, validity, light_grid: LIGHT_GRID, seed }
+}
+
+/// Two independent halves of the reference, the second with another seed.
+fn reference(view: &View) -> [Vec<DVec3>; 2] {
+    [1, 2].map(|half| {
+        let sampler = AdaptiveSampler::stratified(REFERENCE_RAYS).unwrap();
+        let seed = seeds::seed() ^ (half << 60);
+        let settings = Settings { sampler, validity: None, light_grid: LIGHT_GRID, seed };
+        render::render(view, &settings, &|_| ()).unwrap().indirect
+    })
+}
+
+/// (RMSE, bias), both over the mean.
+fn deviation(view: &View, picture: &[DVec3], [a, b]: &[Vec<DVec3>; 2]) -> (f64, f64) {
+    let (mut n, mut mean, mut square, mut bias) = (0.0, 0.0, 0.0, 0.0);
+    for pixel in (0..picture.len()).filter(|&pixel| view.lit(pixel).is_some()) {
+        let (m, r1, r2) = (luminance(picture[pixel]), luminance(a[pixel]), luminance(b[pixel]));
+        n += 1.0;
+        mean += 0.5 * (r1 + r2);
+        square += (m - r1) * (m - r2);
+        bias += m - 0.5 * (r1 + r2);
+    }
+    ((square.max(0.0) / n).sqrt() / (mean / n), bias / mean)
+}
+
+/// H0, for each scene and method: RMSE and bias come from the distribution measured over 32 seeds. A result further than
+/// `PIPELINE_DEVIATIONS` standard deviations from the mean rejects it.
+#[test]
+fn the_error_of_each_method_is_the_measured_one() {
+    for name in ["cornell", "corridor"] {
+        let scene = scene(name);
+        let view = View::new(&scene, SIZE);
+        let reference = reference(&view);
+        for row in PIPELINE.iter().filter(|row| row.scene == name) {
+            let settings = settings(row.method, &scene, seeds::seed());
+            let rendering = render::render(&view, &settings, &|_| ()).unwrap();
+            let (rmse, bias) = deviation(&view, &rendering.indirect, &reference);
+            let off = |value: f64, (mean, deviation): (f64, f64)| (value - mean).abs() / deviation;
+            let (rmse_off, bias_off) = (off(rmse, row.rmse), off(bias, row.bias));
+            println!("{name} {}: RMSE {rmse:.4} ({rmse_off:.1} sd), bias {bias:+.4} ({bias_off:.1} sd)", row.method);
+            assert!(rmse_off <= PIPELINE_DEVIATIONS, "{name} {}: RMSE {rmse} is {rmse_off} sd off", row.method);
+            assert!(bias_off <= PIPELINE_DEVIATIONS, "{name} {}: bias {bias} is {bias_off} sd off", row.method);
+        }
+    }
+}
+
+#[test]
+fn a_picture_does_not_depend_on_the_number_of_threads() {
+    let scene = Scene::corridor();
+    let [one, three] = [1, 3].map(|threads| {
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| {
+            let view = View::new(&scene, SIZE);
+            let rendering = render::render(&view, &settings("paper", &scene, seeds::seed()), &|_| ()).unwrap();
+            let bits: Vec<[u64; 3]> =
+                rendering.indirect.iter().map(|rgb| rgb.to_array().map(f64::to_bits)).collect();
+            (bits, rendering.rays, rendering.light_vectors)
+        })
+    });
+    assert!(one == three);
+}
+
+#[test]
+fn a_furnace_is_exact_through_the_whole_pipeline() {
+    // Every surface emits M and reflects ρ of it once: E = ρM at every point, and the picture shows ρE/π.
+    let (exitance, reflectance) = (DVec3::new(3.0, 2.0, 1.0), DVec3::new(0.5, 0.25, 0.75));
+    let scene = Scene::furnace(exitance, reflectance);
+    let view = View::new(&scene, 8);
+    let want = reflectance * reflectance * exitance / std::f64::consts::PI;
+    for method in ["paper", "default"] {
+        let mut settings = settings(method, &scene, seeds::seed());
+        settings.sampler = settings.sampler.weights(Weights::VoronoiMoment);
+        for pixel in 0..view.visible.len() {
+            let surface = view.visible[pixel].expect("a furnace is closed");
+            let vector = view.gather(&surface, &settings.sampler, LIGHT_GRID, settings.seed, pixel).unwrap();
+            let got = vector.diffuse_radiance(surface.reflectance);
+            let off = ((got - want) / want).abs().max_element();
+            assert!(off <= CONSTANT_FIELD, "{method}: {got}, want {want}, off {off:e}");
+        }
+    }
+}
