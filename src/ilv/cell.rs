@@ -1,5 +1,6 @@
 //! Cells of the hemisphere: rectangles in (u, φ) whose measure is the product of their sides.
 
+use alloc::vec::Vec;
 use core::f64::consts::TAU;
 
 use glam::DVec3;
@@ -23,6 +24,12 @@ impl CellMap {
             Self::SolidAngle => (u, ((1.0 - u) * (1.0 + u)).sqrt()),
             Self::ProjectedSolidAngle => (u.sqrt(), (1.0 - u).sqrt()),
         }
+    }
+
+    /// ∫ sin² θ dθ from the horizon to the coordinate `u`: (c s + asin c)/2 in c = cos θ.
+    fn tangent_antiderivative(self, u: f64) -> f64 {
+        let (cos, sin) = self.cos_sin(u);
+        0.5 * (cos * sin + float::atan2(cos, sin))
     }
 }
 
@@ -116,15 +123,28 @@ impl Cell {
     /// Absolute error at most 4e-16 (searched; the tangent components cancel for thin cells).
     #[must_use]
     pub fn vector_moment(&self) -> DVec3 {
-        // ∫ sin² θ dθ between the two colatitudes, as the antiderivative (c s + asin c) / 2 in c = cos θ.
-        let antiderivative = |u: f64| {
-            let (cos, sin) = self.map.cos_sin(u);
-            0.5 * (cos * sin + float::atan2(cos, sin))
-        };
-        let ring = antiderivative(self.u[1]) - antiderivative(self.u[0]);
-        let (s0, c0) = float::sin_cos(self.azimuth[0]);
-        let (s1, c1) = float::sin_cos(self.azimuth[1]);
+        let [low, high] = self.u.map(|u| self.map.tangent_antiderivative(u));
+        self.moment_between([low, high], self.azimuth.map(float::sin_cos))
+    }
+
+    /// The moment from the antiderivatives at both ends of u and from (sin, cos) of both ends of the azimuth.
+    fn moment_between(&self, ring: [f64; 2], [(s0, c0), (s1, c1)]: [(f64, f64); 2]) -> DVec3 {
+        let ring = ring[1] - ring[0];
         DVec3::new(ring * (s1 - s0), ring * (c0 - c1), self.projected_solid_angle())
+    }
+
+    /// Vector moments of all cells of a grid, in the order of the grid: as [`vector_moment`](Self::vector_moment) to the
+    /// bit, but with one transcendental function a ring and a sector in place of four a cell.
+    pub(super) fn moments_of_grid(cells: &[Self], sectors: usize) -> Vec<DVec3> {
+        let azimuths: Vec<[(f64, f64); 2]> =
+            cells[..sectors].iter().map(|cell| cell.azimuth.map(float::sin_cos)).collect();
+        cells
+            .chunks_exact(sectors)
+            .flat_map(|ring| {
+                let ends = ring[0].u.map(|u| ring[0].map.tangent_antiderivative(u));
+                ring.iter().zip(&azimuths).map(move |(cell, &sector)| cell.moment_between(ends, sector))
+            })
+            .collect()
     }
 
     /// The four cells of half the sides.
@@ -160,6 +180,15 @@ mod tests {
             let moment: DVec3 = grid(map).map(|c| c.vector_moment()).sum();
             assert!((solid_angle - TAU).abs() < 4e-15, "{map:?}: {solid_angle}");
             assert!((moment - DVec3::new(0.0, 0.0, PI)).length() < 4e-15, "{map:?}: {moment}");
+        }
+    }
+
+    #[test]
+    fn the_moments_of_a_grid_are_those_of_its_cells() {
+        for map in MAPS {
+            let cells: Vec<Cell> = grid(map).collect();
+            let each: Vec<DVec3> = cells.iter().map(Cell::vector_moment).collect();
+            assert_eq!(Cell::moments_of_grid(&cells, 4), each);
         }
     }
 

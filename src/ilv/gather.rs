@@ -180,27 +180,24 @@ impl AdaptiveSampler {
         let frame = frame.rotated(core::f64::consts::TAU * rng.random::<f64>());
         let mut tracing = Tracing { frame, points: self.points, source, reflectance, rng, shots: Vec::new() };
         let leaves = match &self.refinement {
-            None => tracing.one_ray_each(self.base_cells())?,
+            None => tracing.one_ray_each(self.base_cells().collect())?,
             Some(rule) => tracing.refine(self.base_cells(), rule)?,
         };
-        let shots = tracing.shots;
-        let cells: Vec<Cell> = leaves.iter().map(|leaf| leaf.cell).collect();
-        let mut rays: Vec<Ray> = shots.iter().map(|shot| shot.ray).collect();
-        for (index, leaf) in leaves.iter().enumerate() {
-            for &ray in &leaf.rays {
-                rays[ray].cell = index as u32;
+        let mut rays: Vec<Ray> = tracing.shots.iter().map(|shot| shot.ray).collect();
+        for (index, members) in leaves.members().enumerate() {
+            for &ray in members {
+                rays[ray as usize].cell = index as u32;
             }
         }
-        let members: Vec<&[usize]> = leaves.iter().map(|leaf| leaf.rays.as_slice()).collect();
-        let weighing = Weighing { frame: &frame, cells: &cells, members: &members };
-        weighing.assign(self.weights, &mut rays).map_err(GatherError::Voronoi)?;
-        let vector = weighing.light_vector(self.weights, self.grid[1], &rays);
+        let weighing = Weighing { weights: self.weights, sectors: self.grid[1] as usize, frame: &frame, leaves: &leaves };
+        weighing.assign(&mut rays).map_err(GatherError::Voronoi)?;
+        let vector = weighing.light_vector(&rays);
         let finite = vector.irradiance().is_finite() && vector.vector_irradiance().is_finite();
         if !(finite && vector.standard_error().is_finite()) {
             return Err(GatherError::Overflow);
         }
         debug_assert!(weights::agree(&vector, frame.normal()));
-        Ok(Gather { frame, cells, rays, vector })
+        Ok(Gather { frame, cells: leaves.cells, rays, vector })
     }
 
     fn base_cells(&self) -> impl Iterator<Item = Cell> + use<> {
@@ -221,11 +218,38 @@ struct Shot {
 struct Branch {
     cell: Cell,
     /// Indices of every ray in the cell.
-    rays: Vec<usize>,
+    rays: Vec<u32>,
     /// How many of the rays, counted from the end, the test of this cell may see.
     tested: usize,
     /// Start of the low-discrepancy sequence in the cell, and number of points taken from it.
     sequence: ([f64; 2], u32),
+}
+
+/// The leaves of a gather and the rays in each.
+pub(super) struct Leaves {
+    pub cells: Vec<Cell>,
+    /// Indices of the rays, leaf after leaf.
+    members: Vec<u32>,
+    /// End of each leaf's rays in `members`.
+    ends: Vec<usize>,
+}
+
+impl Leaves {
+    fn from_branches(branches: &[Branch]) -> Self {
+        let mut leaves = Self { cells: Vec::new(), members: Vec::new(), ends: Vec::new() };
+        for branch in branches {
+            leaves.cells.push(branch.cell);
+            leaves.members.extend_from_slice(&branch.rays);
+            leaves.ends.push(leaves.members.len());
+        }
+        leaves
+    }
+
+    /// The rays of every leaf, by index, in the order of the cells.
+    pub fn members(&self) -> impl Iterator<Item = &[u32]> {
+        let starts = core::iter::once(&0).chain(&self.ends);
+        starts.zip(&self.ends).map(|(&start, &end)| &self.members[start..end])
+    }
 }
 
 /// The state of a gather while rays are being shot.
@@ -244,22 +268,28 @@ where
     B: Fn(DVec3) -> DVec3,
     R: Rng + ?Sized,
 {
-    fn branch(&mut self, cell: Cell, rays: Vec<usize>, tested: usize) -> Branch {
+    fn branch(&mut self, cell: Cell, rays: Vec<u32>, tested: usize) -> Branch {
         let start = match self.points {
             Points::Random => [0.0; 2],
-            Points::LowDiscrepancy => [self.rng.random(), self.rng.random()],
+            Points::LowDiscrepancy => self.first_point(),
         };
         Branch { cell, rays, tested, sequence: (start, 0) }
     }
 
-    fn one_ray_each(&mut self, cells: impl Iterator<Item = Cell>) -> Result<Vec<Branch>, GatherError> {
-        cells
-            .map(|cell| {
-                let mut leaf = self.branch(cell, Vec::with_capacity(1), 0);
-                self.shoot(&mut leaf)?;
-                Ok(leaf)
-            })
-            .collect()
+    fn one_ray_each(&mut self, cells: Vec<Cell>) -> Result<Leaves, GatherError> {
+        self.shots.reserve_exact(cells.len());
+        for cell in &cells {
+            let s = self.first_point();
+            self.shoot(cell, s)?;
+        }
+        let members: Vec<u32> = (0..cells.len() as u32).collect();
+        let ends = (1..=cells.len()).collect();
+        Ok(Leaves { cells, members, ends })
+    }
+
+    /// The first point of a new sequence in a cell.
+    fn first_point(&mut self) -> [f64; 2] {
+        [self.rng.random(), self.rng.random()]
     }
 
     /// Tests and splits, one depth after the other, until every cell is a leaf.
@@ -267,13 +297,13 @@ where
         &mut self,
         cells: impl Iterator<Item = Cell>,
         rule: &Refinement,
-    ) -> Result<Vec<Branch>, GatherError> {
-        let mut leaves = Vec::new();
+    ) -> Result<Leaves, GatherError> {
+        let mut leaves: Vec<Branch> = Vec::new();
         let mut open: Vec<Branch> = cells.map(|cell| self.branch(cell, Vec::new(), 0)).collect();
         for depth in 0..=rule.depth() {
             for branch in &mut open {
                 while branch.tested < rule.batch() as usize {
-                    self.shoot(branch)?;
+                    self.shoot_into(branch)?;
                 }
             }
             if depth == rule.depth() {
@@ -284,8 +314,8 @@ where
             for mut branch in open {
                 if self.wants_a_split(&mut branch, rule, total)? {
                     for cell in branch.cell.split() {
-                        let inside = |&&ray: &&usize| cell.contains(self.shots[ray].at);
-                        let rays: Vec<usize> = branch.rays.iter().filter(inside).copied().collect();
+                        let inside = |&&ray: &&u32| cell.contains(self.shots[ray as usize].at);
+                        let rays: Vec<u32> = branch.rays.iter().filter(inside).copied().collect();
                         let tested = if rule.inherits() { rays.len() } else { 0 };
                         next.push(self.branch(cell, rays, tested));
                     }
@@ -296,14 +326,14 @@ where
             open = next;
         }
         leaves.append(&mut open);
-        Ok(leaves)
+        Ok(Leaves::from_branches(&leaves))
     }
 
     /// Runs the homogeneity test of a cell whose first batch is complete, shooting rays while it is undecided.
     fn wants_a_split(&mut self, branch: &mut Branch, rule: &Refinement, total: f64) -> Result<bool, GatherError> {
         let projected = branch.cell.projected_solid_angle();
         let values = |shots: &[Shot], branch: &Branch| -> Vec<f64> {
-            branch.rays[branch.rays.len() - branch.tested..].iter().map(|&ray| shots[ray].y).collect()
+            branch.rays[branch.rays.len() - branch.tested..].iter().map(|&ray| shots[ray as usize].y).collect()
         };
         let seen = values(&self.shots, branch);
         let largest = seen.iter().copied().fold(0.0, f64::max);
@@ -319,25 +349,32 @@ where
             if let Some(verdict) = test.verdict() {
                 return Ok(verdict == Decision::RejectH0);
             }
-            let y = self.shoot(branch)?;
+            let y = self.shoot_into(branch)?;
             test.push(y);
         }
     }
 
     /// Estimated part of the reflected light that comes through the cell.
     fn mean_light(&self, branch: &Branch) -> f64 {
-        let sum: f64 = branch.rays.iter().map(|&ray| self.shots[ray].y).sum();
+        let sum: f64 = branch.rays.iter().map(|&ray| self.shots[ray as usize].y).sum();
         sum / branch.rays.len() as f64 * branch.cell.projected_solid_angle()
     }
 
-    /// Shoots one more ray into the cell and returns its tested value.
-    fn shoot(&mut self, branch: &mut Branch) -> Result<f64, GatherError> {
+    /// Shoots one more ray into the cell of a branch and returns its tested value.
+    fn shoot_into(&mut self, branch: &mut Branch) -> Result<f64, GatherError> {
         let s = match self.points {
             Points::Random => [self.rng.random(), self.rng.random()],
             Points::LowDiscrepancy => r2_point(&mut branch.sequence),
         };
-        let at = branch.cell.at(s);
-        let direction = self.frame.to_world(branch.cell.direction(at));
+        branch.rays.push(self.shots.len() as u32);
+        branch.tested += 1;
+        self.shoot(&branch.cell, s)
+    }
+
+    /// Shoots a ray through the point `s` of a cell and returns its tested value.
+    fn shoot(&mut self, cell: &Cell, s: [f64; 2]) -> Result<f64, GatherError> {
+        let at = cell.at(s);
+        let direction = self.frame.to_world(cell.direction(at));
         let sample = self.source.sample(direction);
         let radiance = sample.radiance;
         if !is_colour(radiance) {
@@ -351,8 +388,6 @@ where
             return Err(GatherError::Reflectance { direction, reflectance });
         }
         let y = luminance(reflectance * radiance);
-        branch.rays.push(self.shots.len());
-        branch.tested += 1;
         let ray = Ray { direction, radiance, distance: sample.distance, moment: DVec3::ZERO, cell: 0 };
         self.shots.push(Shot { ray, at, y });
         Ok(y)
