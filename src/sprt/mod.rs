@@ -1,1 +1,17 @@
 //! Sequential probability ratio tests.
+
+mod bernoulli;
+mod bounds;
+mod counts;
+mod family;
+mod looks;
+mod run;
+mod sequential;
+
+pub use bernoulli::{Bernoulli, BernoulliError};
+pub use bounds::{Bounds, BoundsError};
+pub use counts::CountsError;
+pub use family::Family;
+pub use looks::Looks;
+pub use run::{Decision, Run, Step};
+pub use sequential::{MAX_SAMPLES, Sprt};
