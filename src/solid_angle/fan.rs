@@ -36,9 +36,9 @@ use core::f64::consts::PI;
 
 use glam::DVec3;
 
+use super::argument::argument;
 use super::double::{Double, dot};
 use super::exact;
-use crate::float;
 
 /// Below this part of the two lengths the compensated numerator is not trusted: 2⁻⁴².
 const NUMERATOR_FLOOR: f64 = 1.0 / (1_u64 << 42) as f64;
@@ -109,7 +109,7 @@ pub(super) fn half_angle(vertices: &[DVec3]) -> HalfAngle {
         product = Some(product.map_or(factor, |product| product.times(factor)));
         b = spoke;
     }
-    HalfAngle(product.map_or(Double::default(), Factor::argument))
+    HalfAngle(product.map_or(Double::default(), |product| argument(product.re, product.im)))
 }
 
 /// |v| − 1 of a near-unit vector, from its compensated norm; the third power of the deviation is below 2⁻¹²².
@@ -152,18 +152,6 @@ impl Factor {
         let scale = 1.0 / f64::from_bits(magnitude.to_bits() & 0x7ff0_0000_0000_0000).max(f64::MIN_POSITIVE);
         let scaled = |x: Double| Double { hi: x.hi * scale, lo: x.lo * scale };
         Self { re: scaled(self.re), im: scaled(self.im) }
-    }
-
-    /// The argument, in (−π, π], to first order in the low parts.
-    fn argument(self) -> Double {
-        let (re, im) = (self.re, self.im);
-        if im.hi == 0.0 {
-            return Double::from(if re.hi < 0.0 { PI } else { 0.0 });
-        }
-        let angle = float::atan2(im.hi, re.hi);
-        let square = re.hi * re.hi + im.hi * im.hi;
-        let correction = (im.lo * re.hi - re.lo * im.hi) / square;
-        Double { hi: angle, lo: if correction.is_finite() { correction } else { 0.0 } }
     }
 }
 

@@ -1,5 +1,6 @@
 //! Solid angle and vector moment of spherical polygons.
 
+mod argument;
 mod check;
 mod double;
 mod error;
