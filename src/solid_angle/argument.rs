@@ -24,15 +24,40 @@ use super::double::Double;
 /// π − `PI`.
 const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;
 
-/// Argument of re + i im in (−π, π]; 0 for 0 + 0i.
+/// Argument of re + i im in (−π, π], with a relative error below 2⁻⁶⁴; 0 for 0 + 0i.
 pub(super) fn argument(re: Double, im: Double) -> Double {
+    reflected(re, im, |d| {
+        let s = d.hi * d.hi;
+        let series = -1.0 / 3.0 + s * (1.0 / 5.0 + s * (-1.0 / 7.0 + s * (1.0 / 9.0 - s * (1.0 / 11.0))));
+        Double { hi: d.hi, lo: d.lo + s * d.hi * series }
+    })
+}
+
+/// `argument` with a relative error of a few u²: the polynomial's first terms are in double length too.
+#[cold]
+pub(super) fn long_argument(re: Double, im: Double) -> Double {
+    let inverse = |n: f64| Double::from(1.0) / Double::from(n);
+    reflected(re, im, |d| {
+        let s = d * d;
+        let rest = s.hi * (1.0 / 9.0 + s.hi * (-1.0 / 11.0 + s.hi * (1.0 / 13.0)));
+        let series = -inverse(3.0) + s * (inverse(5.0) + s * (Double::from(rest) - inverse(7.0)));
+        d + d * s * series
+    })
+}
+
+/// The octants put together; `arctangent` serves |d| <= 1/127.
+#[inline(always)]
+fn reflected(re: Double, im: Double, arctangent: impl Fn(Double) -> Double) -> Double {
     if im.hi == 0.0 {
         return if re.hi < 0.0 { Double { hi: PI, lo: PI_LOW } } else { Double::default() };
     }
     let magnitude = |x: Double| if x.hi < 0.0 { -x } else { x };
     let (x, y) = (magnitude(re), magnitude(im));
-    let mut angle =
-        if y.hi <= x.hi { first_octant(x, y) } else { Double { hi: FRAC_PI_2, lo: 0.5 * PI_LOW } - first_octant(y, x) };
+    let mut angle = if y.hi <= x.hi {
+        first_octant(x, y, arctangent)
+    } else {
+        Double { hi: FRAC_PI_2, lo: 0.5 * PI_LOW } - first_octant(y, x, arctangent)
+    };
     if re.hi < 0.0 {
         angle = Double { hi: PI, lo: PI_LOW } - angle;
     }
@@ -41,19 +66,15 @@ pub(super) fn argument(re: Double, im: Double) -> Double {
 
 /// atan(y/x) for 0 <= y <= x, x > 0.
 #[inline]
-fn first_octant(x: Double, y: Double) -> Double {
+fn first_octant(x: Double, y: Double, arctangent: impl Fn(Double) -> Double) -> Double {
     let k = (64.0 * (y.hi / x.hi)).round_ties_even();
     // k has at most 7 bits and the scaling is exact; a small y keeps its relative accuracy because then k = 0.
     let sixty_four = |z: Double| Double { hi: 64.0 * z.hi, lo: 64.0 * z.lo };
     let (p, q) = (sixty_four(y) - x * k, sixty_four(x) + y * k);
-    let head = p.hi / q.hi;
-    let back = Double::product(head, q.hi);
-    let tail = (((p.hi - back.hi) - back.lo) + (p.lo - head * q.lo)) / q.hi;
-    let s = head * head;
-    let series = s * head * (-1.0 / 3.0 + s * (1.0 / 5.0 + s * (-1.0 / 7.0 + s * (1.0 / 9.0 - s * (1.0 / 11.0)))));
+    let atan = arctangent(p / q);
     let (hi, lo) = ARCTANGENTS[k as usize];
-    let sum = Double::sum(hi, head);
-    Double::sum(sum.hi, sum.lo + (lo + (tail + series)))
+    let sum = Double::sum(hi, atan.hi);
+    Double::sum(sum.hi, sum.lo + (lo + atan.lo))
 }
 
 /// atan(k/64) for k = 0 … 64, each as a double and what is left of it.
@@ -130,7 +151,7 @@ const ARCTANGENTS: [(f64, f64); 65] = [
 mod tests {
     use core::f64::consts::{FRAC_PI_4, PI};
 
-    use super::{ARCTANGENTS, PI_LOW, argument};
+    use super::{ARCTANGENTS, PI_LOW, argument, long_argument};
     use crate::float;
     use crate::solid_angle::double::Double;
 
@@ -165,6 +186,23 @@ mod tests {
             for (x, y) in [(1000.0, f64::from(i)), (-7.0, f64::from(i) - 500.0), (1.0, 10_f64.powi(-(i % 300)) / 3.0)] {
                 assert_eq!(argument(Double::from(x), Double::from(y)).value(), float::atan2(y, x), "x {x}, y {y}");
             }
+        }
+    }
+
+    #[test]
+    fn long_argument_of_one_plus_i_is_a_quarter_of_pi_in_double_length() {
+        let angle = long_argument(Double::from(0.2), Double::from(0.2));
+        assert_eq!((angle.hi, angle.lo), (FRAC_PI_4, PI_LOW / 4.0));
+    }
+
+    #[test]
+    fn long_argument_is_odd_in_the_diagonal() {
+        // atan t + atan(1/t) = π/2, through different rows of the table.
+        for t in [0.003, 0.3, 0.77] {
+            let (t, one) = (Double::from(t), Double::from(1.0));
+            let sum = long_argument(one, t) + long_argument(t, one);
+            let half = long_argument(Double::default(), one);
+            assert!((sum - half).value().abs() < f64::EPSILON * f64::EPSILON, "{t:?}");
         }
     }
 

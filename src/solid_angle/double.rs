@@ -11,7 +11,7 @@
 //! Dekker, "A floating-point technique for extending the available precision", 1971 (`product`, with Veltkamp's splitting);
 //! Knuth, "The Art of Computer Programming", volume 2, section 4.2.2, theorem B (`sum`).
 
-use core::ops::{Add, Mul, Neg, Sub};
+use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// The number `hi + lo`, with `hi` the double nearest to it.
 #[derive(Clone, Copy, Debug, Default)]
@@ -55,6 +55,16 @@ impl Double {
     #[inline(always)]
     pub fn value(self) -> f64 {
         self.hi + self.lo
+    }
+
+    /// The square root of a number >= 0.
+    pub fn sqrt(self) -> Self {
+        let root = self.hi.sqrt();
+        if root == 0.0 {
+            return Self::default();
+        }
+        let square = Self::product(root, root);
+        Self::sum(root, ((self.hi - square.hi) - square.lo + self.lo) / (2.0 * root))
     }
 
     /// a b + c d, within a few u² of |a b| + |c d|.
@@ -128,6 +138,16 @@ impl Mul<f64> for Double {
     }
 }
 
+impl Div for Double {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        let hi = self.hi / other.hi;
+        let back = Self::product(hi, other.hi);
+        Self::sum(hi, (((self.hi - back.hi) - back.lo) + (self.lo - hi * other.lo)) / other.hi)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::Double;
@@ -137,6 +157,14 @@ mod tests {
         let x = 1.0 + f64::EPSILON;
         let square = Double::product(x, x); // 1 + 2⁻⁵¹ + 2⁻¹⁰⁴
         assert_eq!((square.hi, square.lo), (1.0 + 2.0 * f64::EPSILON, f64::EPSILON * f64::EPSILON));
+    }
+
+    #[test]
+    fn quotient_and_root_undo_product_and_square() {
+        let (third, seven) = (Double::from(1.0) / Double::from(3.0), Double::from(7.0));
+        assert_eq!((third * Double::from(3.0) - Double::from(1.0)).value(), 0.0);
+        let root = seven.sqrt();
+        assert!((root * root - seven).value().abs() <= 7.0 * f64::EPSILON * f64::EPSILON);
     }
 
     #[test]

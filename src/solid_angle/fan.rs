@@ -199,7 +199,7 @@ fn denominator(apex_excess: f64, b: &Spoke, c: &Spoke) -> Double {
 }
 
 /// 1/|v| − 1 in double length, from the exact |v|² − 1.
-fn deficit(v: [f64; 3]) -> Double {
+pub(super) fn deficit(v: [f64; 3]) -> Double {
     let error = exact::norm_error(v);
     // (1 + x)^(−1/2) − 1; x is at most 2⁻⁴⁰, so the next term is below 2⁻¹⁹⁰ of the first.
     let x = error.hi;
