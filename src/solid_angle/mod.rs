@@ -7,6 +7,7 @@ mod error;
 mod exact;
 mod fan;
 pub mod fast;
+pub mod formula;
 mod moment;
 
 use glam::DVec3;

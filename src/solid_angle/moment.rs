@@ -15,7 +15,7 @@
 //!
 //! # Accuracy
 //!
-//! With E = ½ Σ wₑ, wₑ = |θₑ − sin θₑ| for edges up to 0.37 rad and θₑ for longer ones, the `f64` of the second sum costs
+//! With E = ½ Σ wₑ, wₑ = |θₑ − sin θₑ| for edges up to 0.377 rad and θₑ for longer ones, the `f64` of the second sum costs
 //! a few u E. Where E exceeds 2 |M| (needles, slivers, long thin bands) the second sum is repeated in double length.
 //!
 //! # Source
@@ -32,6 +32,9 @@ use crate::float;
 
 /// How many times the moment E may be before the second sum is repeated in double length.
 const CANCELLATION: f64 = 2.0;
+
+/// Edges with a larger cosine are short: below 0.377 rad.
+pub(super) const SHORT_COSINE: f64 = 0.93;
 
 /// Sums of unit vectors shorter than this belong to an edge that is nearly a half turn: 2⁻²⁰.
 const NEAR_ANTIPODAL: f64 = 1.0 / (1_u64 << 20) as f64;
@@ -108,7 +111,7 @@ fn arc(a: Corner, b: Corner) -> (DVec3, f64) {
     };
     let length = normal.length();
     let sine = length * norms;
-    if cosine > 0.93 {
+    if cosine > SHORT_COSINE {
         let half = 0.5 * sine * sine / (1.0 + cosine); // sin² θ/2
         let rise = normal * (norms * bulge_of_short_edge(half));
         (rise, rise.length())
@@ -121,7 +124,7 @@ fn arc(a: Corner, b: Corner) -> (DVec3, f64) {
 }
 
 /// θ/sin θ − 1 from h = sin² θ/2 <= 0.035: Σ h^k Π 2j/(2j + 1), j from 1 to k.
-fn bulge_of_short_edge(h: f64) -> f64 {
+pub(super) fn bulge_of_short_edge(h: f64) -> f64 {
     const RATIOS: [f64; 12] = [
         24.0 / 25.0,
         22.0 / 23.0,
