@@ -16,6 +16,16 @@ pub const TABLE: &[(&str, &str, f64, &str)] = &[
     ("vector_moment of nothing", "*", 4.0, "searched: oracle"),
     // The exact value is a rounding accident, 10⁻¹⁶ of the lobes that cancel in it.
     ("signed_polygon", "bowtie_sym", 4.0, "searched: oracle"),
+    // Two results of the same exact value; each is within 0.51 ulp of it.
+    ("signed_polygon", "law", 1.0, "follows from the oracle's bound"),
+    // Ulp of 4π in the sum of an area and its complement, or of a few areas.
+    ("polygon", "law", 2.0, "follows from the oracle's bound"),
+    // Two parts and the whole, in ulp of the largest of the three.
+    ("signed_polygon", "sum", 2.0, "follows from the oracle's bound"),
+    // In units of 2⁻⁵² of the lengths involved, for each vertex.
+    ("vector_moment", "law", 8.0, "searched: laws"),
+    // Relative, of a regular polygon whose vertices are rounded.
+    ("polygon", "cap", 1e-13, "searched: laws"),
     // Absolute, against the compensated kernel on the triangles and rings of the benchmark, before it times anything.
     ("compensated", "bench", 0.0, "same function"),
     ("polygon", "bench", 0.0, "same function"),
