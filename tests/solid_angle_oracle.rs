@@ -1,4 +1,4 @@
-//! Law: the solid angle of every polygon of the oracle is the exact value within the bound of its class.
+//! Law: the solid angle and the vector moment of every polygon of the oracles are the exact values within the bound of the class.
 
 mod bounds;
 #[path = "oracles/decimal.rs"]
@@ -7,7 +7,7 @@ mod decimal;
 use std::collections::BTreeMap;
 
 use bounds::solid_angle::bound;
-use decimal::{hexadecimal, ulps};
+use decimal::{difference, hexadecimal, ulps};
 use glam::DVec3;
 use serde::Deserialize;
 use steradian::glam;
@@ -32,7 +32,7 @@ struct Polygon {
 
 impl Polygon {
     fn vertices(&self) -> Vec<DVec3> {
-        self.vertices.iter().map(|v| DVec3::from_array([0, 1, 2].map(|i| hexadecimal(&v[i])))).collect()
+        vertices(&self.vertices)
     }
 }
 
@@ -42,10 +42,100 @@ fn oracle() -> Vec<Polygon> {
     oracle.polygons
 }
 
+#[derive(Deserialize)]
+struct More {
+    moments: BTreeMap<String, [String; 3]>,
+    polygons: Vec<Measured>,
+}
+
+#[derive(Deserialize)]
+struct Measured {
+    id: String,
+    cls: String,
+    vertices: Vec<[String; 3]>,
+    omega_signed: String,
+    moment: [String; 3],
+}
+
+fn more() -> More {
+    serde_json::from_str(include_str!("oracles/solid_angle_more.json")).expect("the oracle is JSON")
+}
+
+fn vertices(texts: &[[String; 3]]) -> Vec<DVec3> {
+    texts.iter().map(|v| DVec3::from_array([0, 1, 2].map(|i| hexadecimal(&v[i])))).collect()
+}
+
+/// Worst error of every function and class, and every error above its bound.
+#[derive(Default)]
+struct Tally {
+    worst: BTreeMap<String, (f64, String)>,
+    failures: Vec<String>,
+}
+
+impl Tally {
+    fn note(&mut self, function: &str, class: &str, id: &str, error: f64, detail: String) {
+        let bound = bound(function, class);
+        if error.is_nan() || error > bound {
+            self.failures.push(format!("{function} {id}: {detail}, error {error} > {bound}"));
+        }
+        let entry = self.worst.entry(format!("{function} {class}")).or_default();
+        if error >= entry.0 {
+            *entry = (error, id.to_owned());
+        }
+    }
+
+    fn settle(self) {
+        for (class, (error, id)) in self.worst {
+            println!("{class:45} {error:8.3} at {id}");
+        }
+        assert!(self.failures.is_empty(), "{}", self.failures.join("\n"));
+    }
+}
+
+/// Largest component of the error of a vector, in units of 2⁻⁵³ of the vector's largest component; 2⁻¹⁰⁶ for the zero vector.
+fn vector_error(got: DVec3, want: &[String; 3]) -> f64 {
+    let nearest = DVec3::from_array([0, 1, 2].map(|i| want[i].parse().expect("a decimal")));
+    let error = DVec3::from_array([0, 1, 2].map(|i| difference(got[i], &want[i])));
+    let (error, length) = (error.abs().max_element(), nearest.abs().max_element());
+    let unit = 0.5 * f64::EPSILON;
+    error / (unit * if length > 0.0 { length } else { unit })
+}
+
+#[test]
+fn every_moment_is_within_its_bound() {
+    let mut tally = Tally::default();
+    let mut moments = more().moments;
+    for polygon in oracle() {
+        if let Some(want) = moments.remove(&polygon.id) {
+            let got = solid_angle::vector_moment(&polygon.vertices()).expect(&polygon.id);
+            let detail = format!("got {got:?}, want {want:?}");
+            let nothing = want.iter().all(|x| x == "0");
+            let function = if nothing { "vector_moment of nothing" } else { "vector_moment" };
+            tally.note(function, &polygon.cls, &polygon.id, vector_error(got, &want), detail);
+        }
+    }
+    assert!(moments.is_empty(), "moments of unknown polygons: {:?}", moments.keys());
+    tally.settle();
+}
+
+#[test]
+fn more_polygons_are_within_their_bounds() {
+    let mut tally = Tally::default();
+    for polygon in more().polygons {
+        let vertices = vertices(&polygon.vertices);
+        let (id, want) = (&polygon.id, &polygon.omega_signed);
+        let got = solid_angle::signed_polygon(&vertices).expect(id);
+        tally.note("signed_polygon", &polygon.cls, id, ulps(got, want), format!("got {got:e}, want {want}"));
+        let (got, want) = (solid_angle::vector_moment(&vertices).expect(id), &polygon.moment);
+        let detail = format!("got {got:?}, want {want:?}");
+        tally.note("vector_moment", &polygon.cls, id, vector_error(got, want), detail);
+    }
+    tally.settle();
+}
+
 #[test]
 fn every_value_is_within_its_bound() {
-    let mut worst: BTreeMap<String, (f64, String)> = BTreeMap::new();
-    let mut failures = Vec::new();
+    let mut tally = Tally::default();
     for polygon in oracle().iter().filter(|polygon| polygon.expect == "value" && polygon.cls != "non_unit") {
         let vertices = polygon.vertices();
         for (function, got, want) in [
@@ -53,21 +143,11 @@ fn every_value_is_within_its_bound() {
             ("polygon", solid_angle::polygon(&vertices), &polygon.omega),
         ] {
             let want = want.as_deref().expect("a value");
-            let (got, bound) = (got.expect(&polygon.id), bound(function, &polygon.cls));
-            let error = ulps(got, want);
-            if error.is_nan() || error > bound {
-                failures.push(format!("{function} {}: got {got:e}, want {want}, {error} ulp > {bound}", polygon.id));
-            }
-            let entry = worst.entry(format!("{function} {}", polygon.cls)).or_default();
-            if error >= entry.0 {
-                *entry = (error, polygon.id.clone());
-            }
+            let got = got.expect(&polygon.id);
+            tally.note(function, &polygon.cls, &polygon.id, ulps(got, want), format!("got {got:e}, want {want}"));
         }
     }
-    for (class, (error, id)) in worst {
-        println!("{class:45} {error:6.3} ulp at {id}");
-    }
-    assert!(failures.is_empty(), "{}", failures.join("\n"));
+    tally.settle();
 }
 
 #[test]

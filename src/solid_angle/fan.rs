@@ -26,6 +26,9 @@
 //! - a vertex exactly antipodal to v₀ makes both of its triangles 0/0; together they are a lune, whose half area is the
 //!   difference of two azimuths around v₀.
 //!
+//! Triangles of both signs may cancel: the error is a few u² of the sum of their absolute areas. What is below 2⁻⁹⁸ of
+//! that sum has no reliable sign, and is taken for exactly nothing.
+//!
 //! # Source
 //!
 //! Van Oosterom and Strackee, "The solid angle of a plane triangle", 1983, eq. 8; Eriksson, "On the measure of solid
@@ -36,15 +39,18 @@ use core::f64::consts::PI;
 
 use glam::DVec3;
 
+use super::argument::argument;
 use super::double::{Double, dot};
 use super::exact;
-use crate::float;
 
 /// Below this part of the two lengths the compensated numerator is not trusted: 2⁻⁴².
 const NUMERATOR_FLOOR: f64 = 1.0 / (1_u64 << 42) as f64;
 
 /// Below this magnitude of a factor some edge is nearly a half turn: 2⁻¹⁶.
 const FACTOR_FLOOR: f64 = 1.0 / (1_u64 << 16) as f64;
+
+/// What is left of parts that cancel, relative to the parts, is noise below this: 2⁻⁹⁸.
+const NOISE: f64 = 1.0 / ((1_u64 << 49) as f64 * (1_u64 << 49) as f64);
 
 /// 4π − `4.0 * PI`.
 const FOUR_PI_LOW: f64 = 4.898_587_196_589_413e-16;
@@ -93,6 +99,7 @@ pub(super) fn half_angle(vertices: &[DVec3]) -> HalfAngle {
     let apex = apex.to_array();
     let apex_excess = excess(apex);
     let mut product: Option<Factor> = None;
+    let mut swept = 0.0;
     let mut b = Spoke::new(apex, first.to_array());
     let mut rest = rest.iter();
     while let Some(c) = rest.next() {
@@ -106,10 +113,15 @@ pub(super) fn half_angle(vertices: &[DVec3]) -> HalfAngle {
             let c = Spoke::new(apex, c);
             (triangle(apex, apex_excess, &b, &c), c)
         };
+        swept += factor.slope();
         product = Some(product.map_or(factor, |product| product.times(factor)));
         b = spoke;
     }
-    HalfAngle(product.map_or(Double::default(), Factor::argument))
+    let Some(Factor { re, mut im }) = product else { return HalfAngle(Double::default()) };
+    if im.hi.abs() <= NOISE * swept * (re.hi.abs() + im.hi.abs()) {
+        im = Double::default();
+    }
+    HalfAngle(argument(re, im))
 }
 
 /// |v| − 1 of a near-unit vector, from its compensated norm; the third power of the deviation is below 2⁻¹²².
@@ -131,6 +143,13 @@ impl Spoke {
 }
 
 impl Factor {
+    /// |sin| of the argument within a factor of √2: what this triangle adds to the area that cancels.
+    #[inline(always)]
+    fn slope(&self) -> f64 {
+        let im = self.im.hi.abs();
+        if im > 0.0 { im / (self.re.hi.abs() + im) } else { 0.0 }
+    }
+
     /// The product, scaled by a power of two where it would leave the middle of the range.
     #[inline(always)]
     fn times(self, other: Self) -> Self {
@@ -152,18 +171,6 @@ impl Factor {
         let scale = 1.0 / f64::from_bits(magnitude.to_bits() & 0x7ff0_0000_0000_0000).max(f64::MIN_POSITIVE);
         let scaled = |x: Double| Double { hi: x.hi * scale, lo: x.lo * scale };
         Self { re: scaled(self.re), im: scaled(self.im) }
-    }
-
-    /// The argument, in (−π, π], to first order in the low parts.
-    fn argument(self) -> Double {
-        let (re, im) = (self.re, self.im);
-        if im.hi == 0.0 {
-            return Double::from(if re.hi < 0.0 { PI } else { 0.0 });
-        }
-        let angle = float::atan2(im.hi, re.hi);
-        let square = re.hi * re.hi + im.hi * im.hi;
-        let correction = (im.lo * re.hi - re.lo * im.hi) / square;
-        Double { hi: angle, lo: if correction.is_finite() { correction } else { 0.0 } }
     }
 }
 
@@ -211,7 +218,7 @@ fn denominator(apex_excess: f64, b: &Spoke, c: &Spoke) -> Double {
 }
 
 /// 1/|v| − 1 in double length, from the exact |v|² − 1.
-fn deficit(v: [f64; 3]) -> Double {
+pub(super) fn deficit(v: [f64; 3]) -> Double {
     let error = exact::norm_error(v);
     // (1 + x)^(−1/2) − 1; x is at most 2⁻⁴⁰, so the next term is below 2⁻¹⁹⁰ of the first.
     let x = error.hi;

@@ -4,11 +4,41 @@
 ///
 /// Bounds in units of the last place of the exact value unless the regime says otherwise.
 pub const TABLE: &[(&str, &str, f64, &str)] = &[
-    // One arctangent, correctly rounded (0.5), and the addition of its correction (0.5).
-    ("signed_polygon", "*", 1.02, "searched: oracle"),
-    ("polygon", "*", 1.02, "searched: oracle"),
+    // The double-length result rounded once.
+    ("signed_polygon", "*", 0.51, "searched: oracle"),
+    ("polygon", "*", 0.51, "searched: oracle"),
+    // Error in units of 2⁻⁵³ of the largest component of the moment.
+    ("vector_moment", "*", 8.0, "searched: oracle"),
+    // Three points that are collinear up to the rounding of their coordinates: 2⁻¹⁰⁶ of the edges is left of the moment.
+    ("vector_moment", "needle", 64.0, "searched: oracle"),
+    ("vector_moment", "s2_regression", 64.0, "searched: oracle"),
+    // Exactly collinear points, in units of 2⁻¹⁰⁶.
+    ("vector_moment of nothing", "*", 4.0, "searched: oracle"),
     // The exact value is a rounding accident, 10⁻¹⁶ of the lobes that cancel in it.
     ("signed_polygon", "bowtie_sym", 4.0, "searched: oracle"),
+    // Two results of the same exact value; each is within 0.51 ulp of it.
+    ("signed_polygon", "law", 1.0, "follows from the oracle's bound"),
+    // Ulp of 4π in the sum of an area and its complement, or of a few areas.
+    ("polygon", "law", 2.0, "follows from the oracle's bound"),
+    // Two parts and the whole, in ulp of the largest of the three.
+    ("signed_polygon", "sum", 2.0, "follows from the oracle's bound"),
+    // In units of 2⁻⁵² of the lengths involved, for each vertex.
+    ("vector_moment", "law", 8.0, "searched: laws"),
+    // Relative, of a regular polygon whose vertices are rounded.
+    ("polygon", "cap", 1e-13, "searched: laws"),
+    // Absolute, against the compensated kernel on the triangles and rings of the benchmark, before it times anything.
+    ("compensated", "bench", 0.0, "same function"),
+    ("polygon", "bench", 0.0, "same function"),
+    ("vector_moment", "bench", 0.0, "same function"),
+    ("fast", "bench", 1e-14, "searched: bench"),
+    ("fast_polygon", "bench", 1e-14, "searched: bench"),
+    ("fast_vector_moment", "bench", 1e-14, "searched: bench"),
+    ("van_oosterom_strackee", "bench", 1e-13, "searched: bench"),
+    ("van_oosterom_strackee_fan", "bench", 1e-13, "searched: bench"),
+    ("eriksson", "bench", 1e-13, "searched: bench"),
+    ("l_huilier", "bench", 1e-12, "searched: bench"),
+    ("interior_angles_acos", "bench", 1e-11, "searched: bench"),
+    ("turning", "bench", 1e-11, "searched: bench"),
 ];
 
 /// The bound of `function` in `regime`: the longest prefix wins.
