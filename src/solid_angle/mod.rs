@@ -1,10 +1,14 @@
 //! Solid angle and vector moment of spherical polygons.
 
+mod argument;
 mod check;
+mod double;
 mod error;
+mod exact;
+mod fan;
 pub mod fast;
-
-use core::f64::consts::PI;
+pub mod formula;
+mod moment;
 
 use glam::DVec3;
 
@@ -27,8 +31,7 @@ pub fn triangle(a: DVec3, b: DVec3, c: DVec3) -> Result<f64, SolidAngleError> {
 ///
 /// Fewer than three vertices, a vertex that is not finite or not unit, an edge whose ends are antipodal.
 pub fn polygon(vertices: &[DVec3]) -> Result<f64, SolidAngleError> {
-    let signed = signed_polygon(vertices)?;
-    Ok(if signed < 0.0 { 4.0 * PI + signed } else { signed })
+    measured(vertices, |pruned| fan::half_angle(pruned).unsigned())
 }
 
 /// Signed solid angle of the region on the left of the closed loop `vertices`, in steradians, in (−2π, 2π].
@@ -37,8 +40,7 @@ pub fn polygon(vertices: &[DVec3]) -> Result<f64, SolidAngleError> {
 ///
 /// As for [`polygon`].
 pub fn signed_polygon(vertices: &[DVec3]) -> Result<f64, SolidAngleError> {
-    check::check(vertices)?;
-    Ok(fast::signed_polygon(vertices))
+    measured(vertices, |pruned| fan::half_angle(pruned).signed())
 }
 
 /// Vector moment ∫ ω dω of the region on the left of the closed loop `vertices`.
@@ -47,6 +49,11 @@ pub fn signed_polygon(vertices: &[DVec3]) -> Result<f64, SolidAngleError> {
 ///
 /// As for [`polygon`].
 pub fn vector_moment(vertices: &[DVec3]) -> Result<DVec3, SolidAngleError> {
+    measured(vertices, moment::vector_moment)
+}
+
+/// `measure` of the loop, checked and pruned.
+fn measured<T>(vertices: &[DVec3], measure: impl Fn(&[DVec3]) -> T) -> Result<T, SolidAngleError> {
     check::check(vertices)?;
-    Ok(fast::vector_moment(vertices))
+    Ok(if check::has_whiskers(vertices) { measure(&check::prune(vertices)) } else { measure(vertices) })
 }
