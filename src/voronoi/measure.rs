@@ -91,8 +91,11 @@ fn double_corner(view: &View<'_>, before: u32, edge: &Edge) -> Option<Corner> {
 fn twofold_corner(view: &View<'_>, before: u32, at: u32) -> Corner {
     let corner = view.sharp_corner(before, at);
     if corner.hi() == DVec3::ZERO {
-        // Planes that are one and the same to 2⁻⁹⁶: any direction of it is as near to the corner.
-        return Corner { unit: view.site.unit, rest: DVec3::ZERO };
+        // Planes that are one and the same to 2⁻⁹⁶: any direction in it is on both.
+        let normal = view.plane(at).twofold(view.site).hi();
+        let in_plane = view.site.unit.reject_from_normalized(normal);
+        let unit = in_plane.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
+        return Corner { unit, rest: DVec3::ZERO };
     }
     let unit = corner.unit();
     Corner { unit: unit.hi(), rest: unit.lo() }
