@@ -1,14 +1,36 @@
-use steradian::{glam::DVec3, voronoi::Builder};
-fn main() {
-    let mode = std::env::args().nth(1).unwrap(); let n: usize = std::env::args().nth(2).unwrap().parse().unwrap();
-    let reps: usize = std::env::args().nth(3).unwrap().parse().unwrap();
-    let mut s = 88172645463325252u64;
-    let mut r = || { s ^= s << 13; s ^= s >> 7; s ^= s << 17; (s >> 11) as f64 / 9007199254740992.0 };
-    let rows = (n as f64 / 2.0).sqrt().round() as usize; let columns = n / rows;
-    let sites: Vec<DVec3> = (0..n).map(|k| { let (u, v) = match mode.as_str() { "random" => (r(), r()), "strat" => (((k % columns) as f64 + r()) / columns as f64, ((k / columns) as f64 + r()) / rows as f64), _ => (((k % columns) as f64 + 0.5) / columns as f64, ((k / columns) as f64 + 0.5) / rows as f64) };
-        let q = (1.0 - v * v).max(0.0).sqrt(); let t = std::f64::consts::TAU * u; DVec3::new(q * t.cos(), q * t.sin(), v) }).collect();
-    let mut b = Builder::new();
-    let mut best = f64::MAX;
-    for _ in 0..reps { let t = cpu_time::ThreadTime::now(); b.hemisphere(&sites, DVec3::Z).unwrap(); best = best.min(t.elapsed().as_secs_f64()); }
-    println!("{mode} {n}: {:.1} us", best * 1e6);
+//! The dome over a floor, shared among eight directions of light: prints the solid angle of each cell, its vector moment's
+//! height (the projected solid angle, by Lambert's cosine law) and its neighbours, and that the sums are 2π and π.
+//!
+//! `cargo run --example voronoi`
+
+use std::error::Error;
+use std::f64::consts::{PI, TAU};
+
+use steradian::glam::DVec3;
+use steradian::voronoi::{self, HORIZON};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    // The zenith and seven directions 30° above the horizon; only the directions count, not the lengths.
+    let mut sites = vec![DVec3::Z];
+    sites.extend((0..7).map(|k| {
+        let (sine, cosine) = (TAU * f64::from(k) / 7.0).sin_cos();
+        DVec3::new(cosine, sine, 3f64.sqrt().recip())
+    }));
+    let dome = voronoi::hemisphere(&sites, DVec3::Z)?;
+    dome.validate()?;
+
+    println!("site  solid angle [sr]  projected  neighbours");
+    for cell in dome.cells() {
+        let names: Vec<String> = cell.neighbors().iter().map(|&id| name(id)).collect();
+        let (solid_angle, projected) = (cell.solid_angle(), cell.vector_moment().z);
+        println!("{:4}  {solid_angle:16.6}  {projected:9.6}  {}", cell.site(), names.join(" "));
+    }
+    let solid_angle: f64 = dome.solid_angles().iter().sum();
+    let projected: f64 = dome.vector_moments().iter().map(|moment| moment.z).sum();
+    println!(" sum  {solid_angle:16.6}  {projected:9.6}  (2π = {TAU:.6}, π = {PI:.6})");
+    Ok(())
+}
+
+fn name(id: u32) -> String {
+    if id == HORIZON { "horizon".into() } else { id.to_string() }
 }

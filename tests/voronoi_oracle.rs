@@ -137,7 +137,7 @@ fn the_edges_that_must_exist_do() {
 #[test]
 fn invariants_hold() {
     for case in &oracle().cases {
-        case.each(|what, sites, diagram, _| {
+        case.each(|_, sites, diagram, _| {
             invariants::check(sites, diagram.pole().map(|_| DVec3::Z));
         });
     }

@@ -167,10 +167,10 @@ impl Cell {
             -1 => self.rebuild(view, &[second, first], edge),
             _ => {
                 // All three planes contain the corners ±(a × b): a cut through the middle of both edges, or none.
-                // The sides of these middles are the signs of (a × c)·(a × b) and (c × b)·(a × b), parallel vectors.
-                let corner = a.twofold(view.site).cross(b.twofold(view.site)).hi().abs();
-                let axis = Plane::Normal(&AXES[corner.to_array().iter().position(|&x| x == corner.max_element()).unwrap_or(0)]);
-                let up = orientation(view.site, a, b, axis);
+                // The sides of these middles are the signs of (a × c)·(a × b) and (c × b)·(a × b). All these products
+                // are parallel: an axis that is not at right angles to them shows their signs.
+                let along = |axis| (orientation(view.site, a, b, Plane::Normal(axis)), Plane::Normal(axis));
+                let Some((up, axis)) = AXES.iter().map(along).find(|&(up, _)| up != 0) else { return };
                 let at_first = up * orientation(view.site, a, c, axis);
                 let at_second = up * orientation(view.site, c, b, axis);
                 match (at_first >= 0, at_second >= 0) {

@@ -101,6 +101,9 @@ fn twofold_corner(view: &View<'_>, before: u32, at: u32) -> Corner {
     Corner { unit: unit.hi(), rest: unit.lo() }
 }
 
+/// 2π less its double.
+const TWO_PI_REST: f64 = 2.449_293_598_294_706_4e-16;
+
 fn girard_solid_angle(edges: &[Edge]) -> f64 {
     let mut before = edges[edges.len() - 1].normal;
     let mut turned = 0.0;
@@ -108,7 +111,7 @@ fn girard_solid_angle(edges: &[Edge]) -> f64 {
         turned += atan2(edge.start.length(), before.dot(edge.normal));
         before = edge.normal;
     }
-    (2.0 * PI - turned).max(0.0)
+    ((2.0 * PI - turned) + TWO_PI_REST).max(0.0)
 }
 
 fn edge_vector_moment(edges: &[Edge], corners: &[Corner]) -> DVec3 {
