@@ -16,6 +16,8 @@ const MOST_SITES: usize = (u32::MAX / 16) as usize;
 #[derive(Clone, Debug, Default)]
 pub struct Builder {
     rays: Vec<Ray>,
+    cosines: Vec<f64>,
+    ring: Vec<u32>,
     cell: Cell,
     corners: Vec<Corner>,
     diagram: Diagram,
@@ -78,12 +80,15 @@ impl Builder {
     }
 
     fn build(&mut self, pole: Option<Ray>) {
-        let Self { rays, cell, corners, diagram } = self;
+        let Self { rays, cosines, ring, cell, corners, diagram } = self;
+        ring.resize(rays.len(), 0);
         diagram.reset(pole.map(|pole| pole.unit));
         for (i, site) in rays.iter().enumerate() {
-            let view = View { site, rays, pole: pole.as_ref() };
+            let view = View { index: i, site, rays, pole: pole.as_ref() };
             cell.reset();
-            let owner = carve(&view, cell, i);
+            cosines.clear();
+            cosines.extend(rays.iter().map(|ray| ray.unit.dot(site.unit)));
+            let owner = carve(&view, cell, cosines, ring);
             if owner != i {
                 cell.empty = true;
             }
@@ -97,37 +102,44 @@ impl Builder {
     }
 }
 
-/// Cuts `cell` with the horizon and the bisectors of all other sites, in order of their distance from `i` in the list,
-/// which is good for sites that follow each other on the sphere. Returns the lowest index with the direction of `i`.
-fn carve(view: &View<'_>, cell: &mut Cell, i: usize) -> usize {
+/// Cuts `cell` with the horizon and the bisectors of all other sites; returns the lowest index with its direction.
+///
+/// Near sites first, in rings each four times as large as the one before, until no site is left that reaches the cell.
+fn carve(view: &View<'_>, cell: &mut Cell, cosines: &[f64], ring: &mut [u32]) -> usize {
     if view.pole.is_some() {
         cell.cut(view, HORIZON);
     }
-    let mut owner = i;
-    let mut reach = cell.reach();
-    let mut visit = |j: usize| {
-        let other = &view.rays[j];
-        let cosine = view.site.unit.dot(other.unit);
-        if cosine < reach || cell.empty {
-            return;
+    let mut owner = view.index;
+    let mut outer = f64::INFINITY;
+    let mut width = FIRST_RING / cosines.len() as f64;
+    while outer >= cell.reach() && !cell.empty {
+        let inner = if width < 2.0 { 1.0 - width } else { f64::NEG_INFINITY };
+        for &j in within(cosines, inner.max(cell.reach()), outer, ring) {
+            let (index, cosine) = (j as usize, cosines[j as usize]);
+            if cosine > NEAR && view.site.is_along(&view.rays[index]) {
+                owner = owner.min(index);
+            } else if cosine >= cell.reach() && !cell.empty {
+                cell.cut(view, j);
+            }
         }
-        if cosine > NEAR && view.site.is_along(other) {
-            owner = owner.min(j);
-            return;
-        }
-        cell.cut(view, j as u32);
-        reach = cell.reach();
-    };
-    for step in 1..view.rays.len().max(1) {
-        if step <= i {
-            visit(i - step);
-        }
-        if i + step < view.rays.len() {
-            visit(i + step);
-        }
+        outer = inner;
+        width *= 4.0;
     }
     owner
 }
+
+/// The indices of the cosines from `inner` to below `outer`, in `ring`; without branches, for they would be random.
+fn within<'a>(cosines: &[f64], inner: f64, outer: f64, ring: &'a mut [u32]) -> &'a [u32] {
+    let mut count = 0;
+    for (j, &cosine) in cosines.iter().enumerate() {
+        ring[count] = j as u32;
+        count += usize::from((cosine >= inner) & (cosine < outer));
+    }
+    &ring[..count]
+}
+
+/// 1 − cosine of the first ring, times the number of sites: a handful of sites if they are even.
+const FIRST_RING: f64 = 8.0;
 
 /// Sites of smaller cosine cannot have the same direction.
 const NEAR: f64 = 1.0 - 1.0 / (1u64 << 40) as f64;

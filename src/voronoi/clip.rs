@@ -12,7 +12,7 @@
 
 use glam::DVec3;
 
-use super::predicate::{Plane, orientation, side};
+use super::predicate::{DOUBLE_BOUND, Plane, orientation};
 use super::ray::Ray;
 use super::{HORIZON, twofold::Twofold3};
 
@@ -25,6 +25,7 @@ const REACH_SLACK: f64 = 1.0 / (1u64 << 35) as f64;
 /// The rays of a diagram, seen from one of its sites.
 #[derive(Clone, Copy)]
 pub(super) struct View<'a> {
+    pub index: usize,
     pub site: &'a Ray,
     pub rays: &'a [Ray],
     pub pole: Option<&'a Ray>,
@@ -39,20 +40,57 @@ impl<'a> View<'a> {
         }
     }
 
-    /// Unit normal of constraint `id`, right to 6 u.
-    fn normal(&self, id: u32) -> DVec3 {
-        let other = match self.plane(id) {
-            Plane::Normal(pole) => return pole.unit,
-            Plane::Bisector(other) => other,
-        };
-        let difference = (self.site.unit - other.unit) + (self.site.rest - other.rest);
-        let square = difference.length_squared();
-        // Below 2⁻⁴⁰ the error of the rests, 2⁻¹⁰⁰, begins to show.
-        if square > 1.0 / (1u128 << 80) as f64 {
-            difference / square.sqrt()
-        } else {
-            self.site.bisector(other).hi()
+    /// Side of the third plane on which the corner of the first two lies; `corner` and `normal` are these in doubles.
+    #[inline]
+    fn side(&self, corner: DVec3, normal: DVec3, [a, b, c]: [u32; 3]) -> i32 {
+        let estimate = corner.dot(normal);
+        if estimate.abs() > DOUBLE_BOUND {
+            return if estimate > 0.0 { 1 } else { -1 };
         }
+        orientation(self.site, self.plane(a), self.plane(b), self.plane(c))
+    }
+
+    /// The corner at the start of `edge`, as a unit vector to more than double precision or zero.
+    ///
+    /// For bisectors of the site i with j and k, u_i − u_k may be replaced by u_j − u_k, which makes a better angle when
+    /// j and k are close to each other.
+    pub fn sharp_corner(&self, before: u32, at: u32) -> Twofold3 {
+        let (a, b) = (self.plane(before), self.plane(at));
+        let normal = a.twofold(self.site);
+        let corner = normal.cross(b.twofold(self.site));
+        if let (Plane::Bisector(j), Plane::Bisector(k)) = (a, b) {
+            let other = normal.cross(j.bisector(k));
+            if other.hi().length_squared() > corner.hi().length_squared() {
+                return other;
+            }
+        }
+        corner
+    }
+
+    /// The second way of `sharp_corner` in doubles; zero if there is none.
+    pub fn other_corner(&self, before: u32, edge: &Edge) -> DVec3 {
+        match (self.plane(before), self.plane(edge.id)) {
+            (Plane::Bisector(j), Plane::Bisector(_)) => {
+                let view = Self { site: j, ..*self };
+                self.unit(self.vector(before), before).cross(view.unit(view.vector(edge.id), edge.id))
+            }
+            _ => DVec3::ZERO,
+        }
+    }
+
+    /// A normal of constraint `id`, at most 2 long and right to 2⁻⁵² but for its length.
+    fn vector(&self, id: u32) -> DVec3 {
+        match self.plane(id) {
+            Plane::Normal(pole) => pole.unit,
+            Plane::Bisector(other) => (self.site.unit - other.unit) + (self.site.rest - other.rest),
+        }
+    }
+
+    /// Unit normal of constraint `id`, right to 6 u, from that `vector`.
+    fn unit(&self, vector: DVec3, id: u32) -> DVec3 {
+        let square = vector.length_squared();
+        // Below 2⁻⁴⁰ the error of the rests, 2⁻¹⁰⁰, begins to show.
+        if square > 1.0 / (1u128 << 80) as f64 { vector / square.sqrt() } else { self.plane(id).twofold(self.site).hi() }
     }
 }
 
@@ -73,8 +111,9 @@ pub(super) struct Edge {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cell {
     pub edges: Vec<Edge>,
-    kept: Vec<Edge>,
+    spare: Vec<Edge>,
     sides: Vec<i32>,
+    reach: f64,
     pub empty: bool,
 }
 
@@ -82,6 +121,7 @@ impl Cell {
     /// Back to the whole sphere.
     pub fn reset(&mut self) {
         self.edges.clear();
+        self.reach = -2.0;
         self.empty = false;
     }
 
@@ -89,14 +129,17 @@ impl Cell {
     ///
     /// If all corners are within ρ < π/2 of the site then so is the cell, and only sites within 2ρ reach it.
     pub fn reach(&self) -> f64 {
-        let lowest = self.edges.iter().fold(1.0, |lowest: f64, edge| lowest.min(edge.cosine));
-        if self.edges.len() < 3 || lowest <= 0.0 { -2.0 } else { 2.0 * lowest * lowest - 1.0 - REACH_SLACK }
+        self.reach
     }
 
     /// Cuts the cell with the plane of `id`.
     pub fn cut(&mut self, view: &View<'_>, id: u32) {
-        let normal = view.normal(id);
-        let edge = Edge { id, normal, start: DVec3::ZERO, cosine: -1.0 };
+        let vector = view.vector(id);
+        // Most planes miss, which shows before the normal has unit length: vectors are at most 2 long.
+        if self.edges.len() > 2 && self.edges.iter().all(|edge| edge.start.dot(vector) > 2.0 * DOUBLE_BOUND) {
+            return;
+        }
+        let edge = Edge { id, normal: view.unit(vector, id), start: DVec3::ZERO, cosine: -1.0 };
         match *self.edges.as_slice() {
             [] => self.edges.push(edge),
             [first] => self.cut_hemisphere(view, first, edge),
@@ -119,15 +162,15 @@ impl Cell {
 
     fn cut_lune(&mut self, view: &View<'_>, first: Edge, second: Edge, edge: Edge) {
         let (a, b, c) = (view.plane(first.id), view.plane(second.id), view.plane(edge.id));
-        match side(second.start, edge.normal, view.site, a, b, c) {
+        match view.side(second.start, edge.normal, [first.id, second.id, edge.id]) {
             1 => self.rebuild(view, &[first, second], edge),
             -1 => self.rebuild(view, &[second, first], edge),
             _ => {
                 // All three planes contain the corners ±(a × b): a cut through the middle of both edges, or none.
-                // The sides of these middles are the signs of (a × c)·(a × b) and (c × b)·(a × b), parallel vectors.
-                let corner = a.twofold(view.site).cross(b.twofold(view.site)).hi().abs();
-                let axis = Plane::Normal(&AXES[corner.to_array().iter().position(|&x| x == corner.max_element()).unwrap_or(0)]);
-                let up = orientation(view.site, a, b, axis);
+                // The sides of these middles are the signs of (a × c)·(a × b) and (c × b)·(a × b). All these products
+                // are parallel: an axis that is not at right angles to them shows their signs.
+                let along = |axis| (orientation(view.site, a, b, Plane::Normal(axis)), Plane::Normal(axis));
+                let Some((up, axis)) = AXES.iter().map(along).find(|&(up, _)| up != 0) else { return };
                 let at_first = up * orientation(view.site, a, c, axis);
                 let at_second = up * orientation(view.site, c, b, axis);
                 match (at_first >= 0, at_second >= 0) {
@@ -142,15 +185,16 @@ impl Cell {
 
     fn cut_polygon(&mut self, view: &View<'_>, edge: Edge) {
         let n = self.edges.len();
-        let c = view.plane(edge.id);
         self.sides.clear();
         let mut before = self.edges[n - 1].id;
+        let mut outside = false;
         for corner in &self.edges {
-            let (a, b) = (before, corner.id);
-            self.sides.push(side(corner.start, edge.normal, view.site, view.plane(a), view.plane(b), c));
+            let side = view.side(corner.start, edge.normal, [before, corner.id, edge.id]);
+            outside |= side < 0;
+            self.sides.push(side);
             before = corner.id;
         }
-        if self.sides.iter().all(|&s| s >= 0) {
+        if !outside {
             return;
         }
         // The edge that comes in: it starts at or beyond the plane and ends inside.
@@ -159,7 +203,7 @@ impl Cell {
             self.empty = true;
             return;
         };
-        let mut kept = core::mem::take(&mut self.kept);
+        let mut kept = core::mem::take(&mut self.spare);
         kept.clear();
         let mut k = first;
         loop {
@@ -169,18 +213,25 @@ impl Cell {
             }
             k = if k + 1 == n { 0 } else { k + 1 };
         }
-        self.rebuild(view, &kept, edge);
-        self.kept = kept;
+        self.spare = core::mem::replace(&mut self.edges, kept);
+        self.close(view, edge);
     }
 
-    /// The cell of the edges `kept` and then `edge`, whose corners are new.
-    fn rebuild(&mut self, view: &View<'_>, kept: &[Edge], edge: Edge) {
-        self.edges.clear();
-        self.edges.extend_from_slice(kept);
+    /// Puts `edge` after the others; its two corners are new.
+    fn close(&mut self, view: &View<'_>, edge: Edge) {
         self.edges.push(edge);
         let n = self.edges.len();
         self.set_corner(view, n - 2, n - 1);
         self.set_corner(view, n - 1, 0);
+        let lowest = self.edges.iter().fold(1.0, |lowest: f64, edge| lowest.min(edge.cosine));
+        self.reach = if n < 3 || lowest <= 0.0 { -2.0 } else { 2.0 * lowest * lowest - 1.0 - REACH_SLACK };
+    }
+
+    /// The cell of the edges `kept` and then `edge`.
+    fn rebuild(&mut self, view: &View<'_>, kept: &[Edge], edge: Edge) {
+        self.edges.clear();
+        self.edges.extend_from_slice(kept);
+        self.close(view, edge);
     }
 
     fn set_corner(&mut self, view: &View<'_>, before: usize, at: usize) {
@@ -196,21 +247,4 @@ const AXES: [Ray; 3] = [axis(DVec3::X), axis(DVec3::Y), axis(DVec3::Z)];
 
 const fn axis(unit: DVec3) -> Ray {
     Ray { exact: unit, unit, rest: DVec3::ZERO }
-}
-
-/// The corner where planes `before` and `at` meet, as a unit vector to more than double precision.
-///
-/// For bisectors of the site i with j and k, u_i − u_k may be replaced by u_j − u_k, which makes a better angle when j
-/// and k are close to each other.
-pub(super) fn sharp_corner(view: &View<'_>, before: u32, at: u32) -> Twofold3 {
-    let (a, b) = (view.plane(before), view.plane(at));
-    let normal = a.twofold(view.site);
-    let mut corner = normal.cross(b.twofold(view.site));
-    if let (Plane::Bisector(j), Plane::Bisector(k)) = (a, b) {
-        let other = normal.cross(j.bisector(k));
-        if other.hi().length_squared() > corner.hi().length_squared() {
-            corner = other;
-        }
-    }
-    corner
 }

@@ -62,6 +62,16 @@ impl Diagram {
         &self.vector_moments
     }
 
+    /// The pole of a hemisphere as a unit vector; `None` for the whole sphere.
+    pub fn pole(&self) -> Option<DVec3> {
+        self.pole
+    }
+
+    /// The directions of the sites, unit vectors.
+    pub(super) fn sites(&self) -> &[DVec3] {
+        &self.sites
+    }
+
     pub(super) fn reset(&mut self, pole: Option<DVec3>) {
         self.pole = pole;
         self.sites.clear();

@@ -15,7 +15,7 @@ use core::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::clip::{Cell, Edge, View, sharp_corner};
+use super::clip::{Cell, Edge, View};
 use crate::float::atan2;
 
 /// Corners of smaller sine than this, and corners of cells narrower than `NARROW`, are computed in twofold numbers.
@@ -24,12 +24,11 @@ const SHARP: f64 = 0.25;
 /// A cell narrower than this needs more than doubles in the differences of its corners.
 const NARROW: f64 = 1.0 / 64.0;
 
-/// A corner: the unit vector `unit + rest`, and the sine of the angle of the two planes.
+/// A corner: the unit vector `unit + rest`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
     pub unit: DVec3,
     rest: DVec3,
-    sine: f64,
 }
 
 impl Corner {
@@ -46,11 +45,12 @@ pub(super) fn measure(view: &View<'_>, cell: &Cell, corners: &mut Vec<Corner>) -
         [] => (4.0 * PI, DVec3::ZERO),
         [edge] => (2.0 * PI, PI * edge.normal),
         [first, second] => {
-            let corner = twofold_corner(view, first.id, second.id, first.normal.cross(second.normal));
-            corners.push(Corner { unit: -corner.unit, rest: -corner.rest, sine: corner.sine });
+            let corner = twofold_corner(view, first.id, second.id);
+            corners.push(Corner { unit: -corner.unit, rest: -corner.rest });
             corners.push(corner);
-            let angle = atan2(corner.sine, -first.normal.dot(second.normal));
-            (2.0 * angle, 0.5 * PI * (first.normal + second.normal))
+            let [a, b] = [first.id, second.id].map(|id| view.plane(id).twofold(view.site));
+            let angle = atan2(a.cross(b).hi().length(), -a.dot(b).hi);
+            (2.0 * angle, 0.5 * PI * a.add(b).hi())
         }
         _ => {
             set_corners(view, &cell.edges, corners);
@@ -58,52 +58,60 @@ pub(super) fn measure(view: &View<'_>, cell: &Cell, corners: &mut Vec<Corner>) -
             if corners.iter().all(|corner| corner.unit.dot(first.unit) > 0.5) {
                 (fan_solid_angle(corners), fan_vector_moment(corners))
             } else {
-                (girard_solid_angle(&cell.edges, corners), edge_vector_moment(&cell.edges, corners))
+                (girard_solid_angle(&cell.edges), edge_vector_moment(&cell.edges, corners))
             }
         }
     }
 }
 
 fn set_corners(view: &View<'_>, edges: &[Edge], corners: &mut Vec<Corner>) {
-    let mut before = edges[edges.len() - 1];
+    let mut before = edges[edges.len() - 1].id;
     for edge in edges {
-        let sine = edge.start.length();
-        corners.push(if sine > SHARP {
-            Corner { unit: edge.start / sine, rest: DVec3::ZERO, sine }
-        } else {
-            twofold_corner(view, before.id, edge.id, edge.start)
-        });
-        before = *edge;
+        corners.push(double_corner(view, before, edge).unwrap_or_else(|| twofold_corner(view, before, edge.id)));
+        before = edge.id;
     }
     let first = corners[0];
     if corners.iter().all(|corner| corner.minus(&first).length_squared() < NARROW * NARROW) {
-        let mut before = edges[edges.len() - 1];
         for (edge, corner) in edges.iter().zip(corners) {
-            *corner = twofold_corner(view, before.id, edge.id, edge.start);
-            before = *edge;
+            *corner = twofold_corner(view, before, edge.id);
+            before = edge.id;
         }
     }
 }
 
-fn twofold_corner(view: &View<'_>, before: u32, at: u32, start: DVec3) -> Corner {
-    let cross = sharp_corner(view, before, at);
-    if cross.hi() == DVec3::ZERO {
-        // Planes that are one and the same to 2⁻⁹⁶: any direction of it is as near to the corner.
-        return Corner { unit: view.site.unit, rest: DVec3::ZERO, sine: start.length() };
-    }
-    let unit = cross.unit();
-    let sine = view.plane(before).twofold(view.site).cross(view.plane(at).twofold(view.site)).hi().length();
-    Corner { unit: unit.hi(), rest: unit.lo(), sine }
+/// The corner in doubles, if one of the two ways to compute it is good enough.
+fn double_corner(view: &View<'_>, before: u32, edge: &Edge) -> Option<Corner> {
+    let good = |cross: DVec3| {
+        let sine = cross.length();
+        (sine > SHARP).then(|| Corner { unit: cross / sine, rest: DVec3::ZERO })
+    };
+    good(edge.start).or_else(|| good(view.other_corner(before, edge)))
 }
 
-fn girard_solid_angle(edges: &[Edge], corners: &[Corner]) -> f64 {
+fn twofold_corner(view: &View<'_>, before: u32, at: u32) -> Corner {
+    let corner = view.sharp_corner(before, at);
+    if corner.hi() == DVec3::ZERO {
+        // Planes that are one and the same to 2⁻⁹⁶: any direction in it is on both.
+        let normal = view.plane(at).twofold(view.site).hi();
+        let in_plane = view.site.unit.reject_from_normalized(normal);
+        let unit = in_plane.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
+        return Corner { unit, rest: DVec3::ZERO };
+    }
+    let unit = corner.unit();
+    Corner { unit: unit.hi(), rest: unit.lo() }
+}
+
+/// 2π less its double.
+const TWO_PI_REST: f64 = 2.449_293_598_294_706_4e-16;
+
+fn girard_solid_angle(edges: &[Edge]) -> f64 {
     let mut before = edges[edges.len() - 1].normal;
     let mut turned = 0.0;
-    for (edge, corner) in edges.iter().zip(corners) {
-        turned += atan2(corner.sine, before.dot(edge.normal));
+    for edge in edges {
+        turned += atan2(edge.start.length(), before.dot(edge.normal));
         before = edge.normal;
     }
-    (2.0 * PI - turned).max(0.0)
+    ((2.0 * PI - turned) + TWO_PI_REST).max(0.0)
 }
 
 fn edge_vector_moment(edges: &[Edge], corners: &[Corner]) -> DVec3 {

@@ -9,12 +9,14 @@ mod measure;
 mod predicate;
 mod ray;
 mod twofold;
+mod validate;
 
 use glam::DVec3;
 
 pub use builder::Builder;
 pub use diagram::{Cell, Diagram, HORIZON};
 pub use error::VoronoiError;
+pub use validate::{CORNER_ERROR, Defect, ERROR_PER_EDGE};
 
 /// The Voronoi diagram of `sites` on the whole sphere.
 ///

@@ -8,15 +8,13 @@
 //! # Guarantees
 //! The sign is exact. Three stages: doubles with an error bound, twofold numbers with an error bound, and integers.
 
-use glam::DVec3;
-
 use super::exact::{Integer, Root, sign_of_four};
 use super::ray::{Ray, parts};
 use super::twofold::Twofold3;
 
 /// Bound of the error of (a × b)·c in doubles for unit normals that are right to 6 u each, u = 2⁻⁵³:
 /// 3·6 u from the normals, at most 4 u from the cross product and 4 u from the dot product; rounded up.
-const DOUBLE_BOUND: f64 = 32.0 / 9_007_199_254_740_992.0;
+pub(super) const DOUBLE_BOUND: f64 = 32.0 / 9_007_199_254_740_992.0;
 
 /// The same for twofold unit normals: 2⁻⁹⁶ each and a few 2⁻¹⁰⁰ from the products; rounded up generously.
 const TWOFOLD_BOUND: f64 = 1.0 / (1u128 << 90) as f64;
@@ -38,13 +36,6 @@ impl Plane<'_> {
             Self::Normal(normal) => normal.twofold_unit(),
         }
     }
-}
-
-/// Sign of det(a, b, c), where `corner` is a × b in doubles and `normal` is c, of unit normals right to 6 u.
-/// At most two of the planes are given normals.
-pub(super) fn side(corner: DVec3, normal: DVec3, site: &Ray, a: Plane<'_>, b: Plane<'_>, c: Plane<'_>) -> i32 {
-    let estimate = corner.dot(normal);
-    if estimate.abs() > DOUBLE_BOUND { if estimate > 0.0 { 1 } else { -1 } } else { orientation(site, a, b, c) }
 }
 
 /// Sign of det(a, b, c); at most two of the planes are given normals.

@@ -1,1 +1,35 @@
 //! Tolerances of the tests of `voronoi`.
+
+/// (function, regime, bound, kind of evidence); `regime` is the name of a case of the oracle, a kind of input, or `*`.
+pub const TABLE: &[(&str, &str, f64, &str)] = &[
+    // Absolute error of a solid angle in steradians, whatever the cell.
+    ("solid_angle", "*", 4e-15, "searched: oracle"),
+    // Relative error of a cell whose corners are within 1/64 of each other.
+    ("solid_angle", "narrow", 4e-15, "searched: oracle"),
+    // Most that corners of such a cell are apart.
+    ("narrow", "*", 1.0 / 64.0, "definition"),
+    // A cell against the polygon of its corners, which are rounded to doubles: absolute, and over its width.
+    ("polygon", "solid_angle", 1e-14, "searched: random"),
+    ("polygon", "vector_moment", 1e-14, "searched: random"),
+    // x·(u − v) where u is the nearest site to the query x, or x a point of the cell of u.
+    ("nearest", "*", 1e-15, "two roundings of a dot product"),
+    // det(a, b, x) for corners a, b of an edge and x in the cell.
+    ("inside", "*", 1e-14, "corners right to 64 u, twice"),
+    // Absolute change of solid angles and vector moments under operations that change nothing.
+    ("permuted", "*", 1e-14, "searched: random"),
+    ("halves", "*", 1e-14, "searched: random"),
+    // A rotation rounds the sites: 1e-16 over the distance of close sites, here at least 1e-4.
+    ("rotated", "*", 1e-10, "searched: random"),
+    // Sums, beside `validate`: absolute, of up to 2000 cells.
+    ("sum", "*", 1e-13, "searched: random"),
+];
+
+/// Names of cases of the oracle that are compared by groups: the oracle merges directions closer than 1e-300, and the
+/// diagram does not, as they differ.
+pub const MERGED_BY_THE_ORACLE: &[&str] = &["subnormal_components"];
+
+/// The bound of `function` in `regime`.
+pub fn bound(function: &str, regime: &str) -> f64 {
+    let find = |regime: &str| TABLE.iter().find(|row| row.0 == function && row.1 == regime);
+    find(regime).or_else(|| find("*")).unwrap_or_else(|| panic!("no bound for {function} in {regime}")).2
+}

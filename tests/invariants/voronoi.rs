@@ -1,0 +1,60 @@
+//! What must hold for the diagram of any sites at all: used by tests and by fuzzing.
+
+use steradian::glam::DVec3;
+use steradian::voronoi::{self, Builder, Diagram, VoronoiError};
+
+fn diagram(sites: &[DVec3], pole: Option<DVec3>) -> Result<Diagram, VoronoiError> {
+    match pole {
+        None => voronoi::sphere(sites),
+        Some(pole) => voronoi::hemisphere(sites, pole),
+    }
+}
+
+/// Whether the documentation accepts these sites and this pole.
+pub fn is_accepted(sites: &[DVec3], pole: Option<DVec3>) -> bool {
+    !sites.is_empty() && sites.iter().chain(&pole).all(|v| v.is_finite() && *v != DVec3::ZERO)
+}
+
+/// Checks the diagram of sites that need not be valid.
+pub fn check(sites: &[DVec3], pole: Option<DVec3>) {
+    let result = diagram(sites, pole);
+    assert_eq!(result.is_ok(), is_accepted(sites, pole), "{result:?}");
+    let Ok(first) = result else { return };
+    if let Err(defect) = first.validate() {
+        panic!("{defect} for the sites {sites:?} and the pole {pole:?}");
+    }
+    assert_eq!(first.len(), sites.len());
+
+    // A builder that was used before gives the same bits, and so do sites of other lengths along the same rays.
+    let mut builder = Builder::new();
+    assert!(builder.hemisphere(&[DVec3::X, DVec3::NEG_Z, DVec3::X], DVec3::Y).is_ok());
+    let scaled: Vec<DVec3> = sites.iter().enumerate().map(|(i, &site)| scaled_exactly(site, i)).collect();
+    let again = match pole {
+        None => builder.sphere(&scaled),
+        Some(pole) => builder.hemisphere(&scaled, scaled_exactly(pole, 1)),
+    };
+    match again {
+        Ok(again) => assert_same_bits(&first, again),
+        Err(error) => panic!("{error} for {scaled:?}"),
+    }
+}
+
+/// `v` times a power of two that depends on `i`, or `v` itself where that would round.
+fn scaled_exactly(v: DVec3, i: usize) -> DVec3 {
+    let factor = [1.0, 0.25, 1024.0, 2f64.powi(600), 2f64.powi(-600)][i % 5];
+    let scaled = v * factor;
+    if scaled.is_finite() && scaled / factor == v { scaled } else { v }
+}
+
+/// Equality to the last bit.
+pub fn assert_same_bits(a: &Diagram, b: &Diagram) {
+    let bits = |v: DVec3| v.to_array().map(f64::to_bits);
+    assert_eq!(a.len(), b.len());
+    for (a, b) in a.cells().zip(b.cells()) {
+        assert_eq!(a.owner(), b.owner());
+        assert_eq!(a.solid_angle().to_bits(), b.solid_angle().to_bits(), "{} {}", a.solid_angle(), b.solid_angle());
+        assert_eq!(bits(a.vector_moment()), bits(b.vector_moment()));
+        assert_eq!(a.neighbors(), b.neighbors());
+        assert!(a.vertices().iter().map(|&v| bits(v)).eq(b.vertices().iter().map(|&v| bits(v))));
+    }
+}
