@@ -90,7 +90,7 @@ impl Scene {
         let mut nearest = exit.0;
         let mut entered = None;
         for solid in &self.solids {
-            if let Some((distance, face)) = solid.entry(origin, direction) {
+            if let Some((distance, face)) = solid.entry(&solid.heights(origin), direction) {
                 if distance < nearest {
                     nearest = distance;
                     entered = Some((solid, face));
@@ -124,7 +124,7 @@ impl Scene {
     /// Whether a solid or the light stands between two points of the room; surfaces at the end points do not count.
     pub fn occluded(&self, from: DVec3, to: DVec3) -> bool {
         let span = to - from;
-        self.solids.iter().any(|solid| solid.blocks(from, span))
+        self.solids.iter().any(|solid| solid.blocks(&solid.heights(from), span))
             || self.light.as_ref().is_some_and(|light| {
                 light.distance(from, span, span.recip()).is_some_and(|t| t > Self::SLACK && t < 1.0 - Self::SLACK)
             })
@@ -148,15 +148,17 @@ impl Scene {
         if whole == 0.0 {
             return (self.exitance, 0);
         }
-        let mut near =
-            self.solids.iter().zip(&self.toward_light).filter(|(solid, toward)| !solid.is_behind(position, toward));
-        let Some((first, _)) = near.next() else { return (self.exitance + light.radiance * whole, 0) };
+        let mut near = self.solids.iter().zip(&self.toward_light).filter_map(|(solid, toward)| {
+            let heights = solid.heights(position);
+            (!solid.is_behind(&heights, toward)).then_some((solid, heights))
+        });
+        let Some((first, heights)) = near.next() else { return (self.exitance + light.radiance * whole, 0) };
         let (mut seen, mut all, mut rays) = (0.0, 0.0, 0);
         for (span, share) in light.grid(position, normal, grid) {
             if share > 0.0 {
                 all += share;
                 rays += 1;
-                if !first.blocks(position, span) && !near.clone().any(|(solid, _)| solid.blocks(position, span)) {
+                if !first.blocks(&heights, span) && !near.clone().any(|(solid, heights)| solid.blocks(&heights, span)) {
                     seen += share;
                 }
             }

@@ -1,6 +1,10 @@
 //! Convex solids that stand in the room.
 
+use std::array;
+
 use steradian::glam::DVec3;
+
+use super::Scene;
 
 const FACES: usize = 6;
 
@@ -49,31 +53,31 @@ impl Solid {
     /// Height of `point` above the plane of each face, negative inside.
     #[inline]
     pub fn heights(&self, point: DVec3) -> [f64; FACES] {
-        std::array::from_fn(|i| self.x[i] * point.x + self.y[i] * point.y + self.z[i] * point.z - self.offset[i])
+        array::from_fn(|i| self.x[i] * point.x + self.y[i] * point.y + self.z[i] * point.z - self.offset[i])
     }
 
-    /// Distance, in lengths of `direction`, to where the ray enters, and the face it enters through.
+    /// Distance, in lengths of `direction`, to where the ray from a point of these [`Self::heights`] enters, and the face it
+    /// enters through.
     ///
     /// A ray that starts on a face and leaves it, or that starts inside, enters nowhere: the planes it leaves through count
     /// as moved inward by the slack, those it enters through do not, so distances are exact.
     #[inline]
-    pub fn entry(&self, origin: DVec3, direction: DVec3) -> Option<(f64, usize)> {
-        let heights = self.heights(origin);
+    pub fn entry(&self, heights: &[f64; FACES], direction: DVec3) -> Option<(f64, usize)> {
+        // The leading 0 turns −0, which would be taken for an exit at −∞, into +0.
         let speeds: [f64; FACES] =
-            std::array::from_fn(|i| self.x[i] * direction.x + self.y[i] * direction.y + self.z[i] * direction.z + 0.0);
-        let crossings: [f64; FACES] = std::array::from_fn(|i| {
-            let height = if speeds[i] < 0.0 { heights[i] } else { heights[i] + self.slack };
-            -height / speeds[i]
-        });
+            array::from_fn(|i| 0.0 + self.x[i] * direction.x + self.y[i] * direction.y + self.z[i] * direction.z);
+        if (0..FACES).fold(false, |away, i| away | (heights[i] >= -self.slack) & (speeds[i] >= 0.0)) {
+            return None;
+        }
         let (mut enter, mut face, mut leave) = (0.0, FACES, f64::INFINITY);
         for i in 0..FACES {
+            let t = -heights[i] / speeds[i];
             if speeds[i] < 0.0 {
-                if crossings[i] > enter {
-                    enter = crossings[i];
-                    face = i;
+                if t > enter {
+                    (enter, face) = (t, i);
                 }
-            } else if crossings[i] < leave {
-                leave = crossings[i];
+            } else if t < leave {
+                leave = t;
             }
         }
         (face < FACES && enter < leave).then_some((enter, face))
@@ -86,23 +90,23 @@ impl Solid {
         (normal, point - normal * (normal.dot(point) - self.offset[face]))
     }
 
-    /// Whether the segment `from` + [0, 1] · `span` enters the solid before its end.
+    /// Whether the segment that starts at a point of these [`Self::heights`] and goes along `span` enters before its end.
     #[inline]
-    pub fn blocks(&self, from: DVec3, span: DVec3) -> bool {
-        self.entry(from, span).is_some_and(|(t, _)| t < 1.0 - 1e-9)
+    pub fn blocks(&self, heights: &[f64; FACES], span: DVec3) -> bool {
+        self.entry(heights, span).is_some_and(|(t, _)| t < 1.0 - Scene::SLACK)
     }
 
     /// The faces whose plane has every corner of the light on its outer side: they cannot hide it from points on that side.
     pub fn faces_toward(&self, corners: &[DVec3; 4]) -> [bool; FACES] {
         let heights = corners.map(|corner| self.heights(corner));
         // An unused half-space has the height −1 everywhere.
-        std::array::from_fn(|i| heights.iter().all(|height| height[i] >= 0.0))
+        array::from_fn(|i| heights.iter().all(|height| height[i] >= 0.0))
     }
 
-    /// Whether one of the faces `toward` the light separates `point` from the solid, so that it sees all of the light.
+    /// Whether one of the faces `toward` the light separates a point of these [`Self::heights`] from the solid: it then sees
+    /// all of the light.
     #[inline]
-    pub fn is_behind(&self, point: DVec3, toward: &[bool; FACES]) -> bool {
-        let heights = self.heights(point);
+    pub fn is_behind(&self, heights: &[f64; FACES], toward: &[bool; FACES]) -> bool {
         (0..FACES).any(|i| toward[i] & (heights[i] >= -self.slack))
     }
 }
