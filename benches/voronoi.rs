@@ -27,7 +27,9 @@ fn stratified(n: usize, rng: &mut impl Rng) -> Vec<DVec3> {
     let rows = (n as f64 / 2.0).sqrt().round() as usize;
     let columns = n / rows;
     let at = |k: usize, of: usize, jitter: f64| (k as f64 + jitter) / of as f64;
-    (0..rows * columns).map(|k| dome(at(k % columns, columns, rng.random()), at(k / columns, rows, rng.random()))).collect()
+    (0..rows * columns)
+        .map(|k| dome(at(k % columns, columns, rng.random()), at(k / columns, rows, rng.random())))
+        .collect()
 }
 
 /// The middles of the same cells: four sites on a circle everywhere, up to rounding.
@@ -41,7 +43,8 @@ fn lattice(n: usize) -> Vec<DVec3> {
 fn diagrams(criterion: &mut Criterion) {
     let mut rng = seeds::rng(1);
     for n in [10, 50, 200, 1000] {
-        let shapes = [("random", random(n, &mut rng)), ("stratified", stratified(n, &mut rng)), ("lattice", lattice(n))];
+        let shapes =
+            [("random", random(n, &mut rng)), ("stratified", stratified(n, &mut rng)), ("lattice", lattice(n))];
         for (shape, sites) in shapes {
             let mut builder = Builder::new();
             let total: f64 = builder.hemisphere(&sites, DVec3::Z).map_or(0.0, |d| d.solid_angles().iter().sum());

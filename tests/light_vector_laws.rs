@@ -26,9 +26,8 @@ fn independent(n: u32) -> AdaptiveSampler {
 }
 
 fn samplers() -> Vec<(&'static str, AdaptiveSampler)> {
-    let fresh = Refinement::new(*AdaptiveSampler::paper().splitting().unwrap().test(), 0.25, 3)
-        .unwrap()
-        .reuse(Reuse::Fresh);
+    let fresh =
+        Refinement::new(*AdaptiveSampler::paper().splitting().unwrap().test(), 0.25, 3).unwrap().reuse(Reuse::Fresh);
     vec![
         ("default", AdaptiveSampler::default()),
         ("paper", AdaptiveSampler::paper()),
@@ -175,7 +174,12 @@ fn voronoi_area_times_cosine_is_too_bright_by_one_over_n() {
 /// place their rays regardless of the radiances, 2000 each; two-sided z-test on all three components of Φ.
 #[test]
 fn samplers_that_do_not_look_are_unbiased() {
-    let corners = [DVec3::new(-0.5, -0.3, 1.0), DVec3::new(0.9, -0.3, 1.0), DVec3::new(0.9, 1.1, 1.0), DVec3::new(-0.5, 1.1, 1.0)];
+    let corners = [
+        DVec3::new(-0.5, -0.3, 1.0),
+        DVec3::new(0.9, -0.3, 1.0),
+        DVec3::new(0.9, 1.1, 1.0),
+        DVec3::new(-0.5, 1.1, 1.0),
+    ];
     let directions: Vec<DVec3> = corners.iter().map(|corner| corner.normalize()).collect();
     let exact = solid_angle::vector_moment(&directions).unwrap();
     let lamp = |direction: DVec3| {
@@ -258,7 +262,10 @@ fn a_glossy_reflectance_draws_the_rays_to_its_lobe() {
 #[test]
 fn a_turned_vector_is_exact_to_first_order() {
     // A field that does not cross the horizon when the surface turns by a degree: a cap around the zenith.
-    let cap = |direction: DVec3| Sample { radiance: DVec3::splat(f64::from(direction.z > 0.5) * (1.0 + direction.x)), distance: 1.0 };
+    let cap = |direction: DVec3| Sample {
+        radiance: DVec3::splat(f64::from(direction.z > 0.5) * (1.0 + direction.x)),
+        distance: 1.0,
+    };
     let sampler = AdaptiveSampler::stratified(20_000).unwrap();
     let vector = *gather(&sampler, DVec3::Z, cap, seeds::rng(2).random()).vector();
     let tilted = DVec3::new(1.0_f64.to_radians().sin(), 0.0, 1.0_f64.to_radians().cos());

@@ -6,6 +6,7 @@
 
 mod bounds;
 mod seeds;
+#[allow(dead_code, unused_imports, reason = "uses a part of the tracer")]
 mod tracer;
 
 use bounds::ilv::{CONSTANT_FIELD, PIPELINE, PIPELINE_DEVIATIONS};
@@ -94,8 +95,7 @@ fn a_picture_does_not_depend_on_the_number_of_threads() {
         rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| {
             let view = View::new(&scene, SIZE);
             let rendering = render::render(&view, &settings("paper", &scene, seeds::seed()), &|_| ()).unwrap();
-            let bits: Vec<[u64; 3]> =
-                rendering.indirect.iter().map(|rgb| rgb.to_array().map(f64::to_bits)).collect();
+            let bits: Vec<[u64; 3]> = rendering.indirect.iter().map(|rgb| rgb.to_array().map(f64::to_bits)).collect();
             (bits, rendering.rays, rendering.light_vectors)
         })
     });

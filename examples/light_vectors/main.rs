@@ -12,7 +12,7 @@ use steradian::{
     ilv::{AdaptiveSampler, Validity, luminance},
 };
 
-#[allow(dead_code, reason = "uses a part of the tracer")]
+#[allow(dead_code, unused_imports, reason = "uses a part of the tracer")]
 #[path = "../../tests/tracer/mod.rs"]
 mod tracer;
 
@@ -65,7 +65,11 @@ fn run(options: &Options) -> Result<(), JobError> {
     for &name in &options.scene {
         let of_scene = pool.install(|| compare(name, options))?;
         let vectors = options.size * options.size;
-        println!("{}, {size} x {size} pixels ({vectors}), one indirect bounce", scene_of(name).name, size = options.size);
+        println!(
+            "{}, {size} x {size} pixels ({vectors}), one indirect bounce",
+            scene_of(name).name,
+            size = options.size
+        );
         println!("{}", table::text(&of_scene));
         rows.extend(of_scene);
     }
@@ -84,10 +88,10 @@ fn compare(name: SceneName, options: &Options) -> Result<Vec<Row>, JobError> {
         (0..truth.len()).filter(|&pixel| view.lit(pixel).is_some()).map(|pixel| luminance(truth[pixel])).collect();
     let mean = lit.iter().sum::<f64>() / lit.len().max(1) as f64;
     let direct = view.direct(DIRECT_LIGHT_GRID);
-    let exposures = Exposures { picture: picture::exposure(&sum(&direct, &truth)), indirect: picture::exposure(&truth) };
-    let draw = |stem: &str, note: String, indirect: &[DVec3]| -> Result<Column, JobError> {
-        let size = options.size;
-        let map = picture::error_map(indirect, &truth, size, mean);
+    let exposures =
+        Exposures { picture: picture::exposure(&sum(&direct, &truth)), indirect: picture::exposure(&truth) };
+    let size = options.size;
+    let draw = |stem: &str, note: String, indirect: &[DVec3], map| -> Result<Column, JobError> {
         let pictures = [
             picture::tone_mapped(&sum(&direct, indirect), size, exposures.picture),
             picture::tone_mapped(indirect, size, exposures.indirect),
@@ -101,7 +105,10 @@ fn compare(name: SceneName, options: &Options) -> Result<Vec<Row>, JobError> {
     };
 
     let mut rows = Vec::new();
-    let mut columns = vec![draw("reference", format!("{} rays a pixel", options.reference_rays), &truth)?];
+    // The error of the reference itself: half the difference of its halves.
+    let [a, b] = reference.halves();
+    let noise = picture::error_map(size, |pixel| 0.5 * (luminance(a[pixel]) - luminance(b[pixel])) / mean);
+    let mut columns = vec![draw("reference", format!("{} rays a pixel", options.reference_rays), &truth, noise)?];
     for &method in &options.method {
         let label = label(method);
         let settings = settings(method, &scene, options)?;
@@ -112,7 +119,9 @@ fn compare(name: SceneName, options: &Options) -> Result<Vec<Row>, JobError> {
         drop(progress);
         let row = Row::new(&view, label, cpu, &rendering, &reference);
         let note = format!("{:.2} CPU s, RMSE {:.1} %", row.cpu_seconds, 100.0 * row.relative_rmse);
-        columns.push(draw(label, note, &rendering.indirect)?);
+        let found = &rendering.indirect;
+        let map = picture::error_map(size, |pixel| (luminance(found[pixel]) - luminance(truth[pixel])) / mean);
+        columns.push(draw(label, note, found, map)?);
         rows.push(row);
     }
     let title = format!("{}, one indirect bounce", scene.name);

@@ -36,11 +36,8 @@ pub fn exposure(radiances: &[DVec3]) -> f64 {
 pub fn tone_mapped(radiances: &[DVec3], size: u32, exposure: f64) -> RgbImage {
     let channel = |x: f64| {
         let compressed = 1.0 - (-1.6 * x * exposure).exp();
-        let encoded = if compressed <= 0.003_130_8 {
-            12.92 * compressed
-        } else {
-            1.055 * compressed.powf(1.0 / 2.4) - 0.055
-        };
+        let encoded =
+            if compressed <= 0.003_130_8 { 12.92 * compressed } else { 1.055 * compressed.powf(1.0 / 2.4) - 0.055 };
         (255.0 * encoded + 0.5) as u8
     };
     image_of(size, |pixel| {
@@ -49,12 +46,9 @@ pub fn tone_mapped(radiances: &[DVec3], size: u32, exposure: f64) -> RgbImage {
     })
 }
 
-/// The absolute error of the luminance, relative to `mean`, on the colours of "inferno".
-pub fn error_map(picture: &[DVec3], reference: &[DVec3], size: u32, mean: f64) -> RgbImage {
-    image_of(size, |pixel| {
-        let error = (luminance(picture[pixel]) - luminance(reference[pixel])).abs() / mean;
-        inferno(error / LARGEST_ERROR)
-    })
+/// An error of the luminance, relative to its mean, on the colours of "inferno".
+pub fn error_map(size: u32, error: impl Fn(usize) -> f64) -> RgbImage {
+    image_of(size, |pixel| inferno(error(pixel).abs() / LARGEST_ERROR))
 }
 
 /// An error map with the scale of its colours under it.

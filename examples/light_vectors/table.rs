@@ -8,10 +8,7 @@ use steradian::{glam::DVec3, ilv::luminance};
 use crate::{
     error::JobError,
     reference::Reference,
-    tracer::{
-        in_indirect_shadow,
-        render::{Rendering, View},
-    },
+    tracer::render::{Rendering, View},
 };
 
 /// One line of the table.
@@ -37,7 +34,7 @@ impl Row {
     pub fn new(view: &View, method: &str, cpu: Duration, rendering: &Rendering, reference: &Reference) -> Self {
         let lit = |pixel: &usize| view.lit(*pixel).is_some();
         let everywhere = Deviation::over((0..view.visible.len()).filter(lit), &rendering.indirect, reference);
-        let in_shadow = |pixel: &usize| view.lit(*pixel).is_some_and(|s| view.scene.name == "corridor" && in_indirect_shadow(s.position));
+        let in_shadow = |pixel: &usize| view.lit(*pixel).is_some_and(|s| view.scene.in_indirect_shadow(s.position));
         let patch = Deviation::over((0..view.visible.len()).filter(in_shadow), &rendering.indirect, reference);
         let everywhere = everywhere.unwrap_or(Deviation { relative_rmse: f64::NAN, relative_bias: f64::NAN });
         Self {

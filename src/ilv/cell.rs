@@ -66,8 +66,8 @@ impl Cell {
 
     /// The point at the fractions `s` of the first and second side, each in [0, 1).
     pub(super) fn at(&self, s: [f64; 2]) -> Coordinates {
-        // The clamp keeps a point that rounds up to the far side inside its half-open cell.
-        let inside = |[a, b]: [f64; 2], s: f64| (a + (b - a) * s).clamp(a, b.next_down());
+        // The clamp keeps a point that rounds up to the far side, which is above zero, inside its half-open cell.
+        let inside = |[a, b]: [f64; 2], s: f64| (a + (b - a) * s).clamp(a, f64::from_bits(b.to_bits() - 1));
         Coordinates { u: inside(self.u, s[0]), azimuth: inside(self.azimuth, s[1]) }
     }
 

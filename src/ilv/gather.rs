@@ -108,7 +108,10 @@ impl fmt::Display for GatherError {
                 write!(f, "the distance {distance} towards {direction} is not at least zero")
             }
             Self::Reflectance { direction, reflectance } => {
-                write!(f, "the reflectance {reflectance} for light from {direction} is not a finite colour of at least zero")
+                write!(
+                    f,
+                    "the reflectance {reflectance} for light from {direction} is not a finite colour of at least zero"
+                )
             }
             Self::Overflow => write!(f, "the sum of the radiances overflows"),
             Self::Voronoi(error) => write!(f, "the Voronoi diagram of the rays failed: {error}"),
@@ -189,7 +192,8 @@ impl AdaptiveSampler {
                 rays[ray as usize].cell = index as u32;
             }
         }
-        let weighing = Weighing { weights: self.weights, sectors: self.grid[1] as usize, frame: &frame, leaves: &leaves };
+        let weighing =
+            Weighing { weights: self.weights, sectors: self.grid[1] as usize, frame: &frame, leaves: &leaves };
         weighing.assign(&mut rays).map_err(GatherError::Voronoi)?;
         let vector = weighing.light_vector(&rays);
         let finite = vector.irradiance().is_finite() && vector.vector_irradiance().is_finite();
@@ -293,11 +297,7 @@ where
     }
 
     /// Tests and splits, one depth after the other, until every cell is a leaf.
-    fn refine(
-        &mut self,
-        cells: impl Iterator<Item = Cell>,
-        rule: &Refinement,
-    ) -> Result<Leaves, GatherError> {
+    fn refine(&mut self, cells: impl Iterator<Item = Cell>, rule: &Refinement) -> Result<Leaves, GatherError> {
         let mut leaves: Vec<Branch> = Vec::new();
         let mut open: Vec<Branch> = cells.map(|cell| self.branch(cell, Vec::new(), 0)).collect();
         for depth in 0..=rule.depth() {

@@ -150,7 +150,6 @@ impl Refinement {
     }
 
     /// The sequential test of a cell's rays.
-    #[must_use]
     pub fn test(&self) -> &Sprt<Bernoulli> {
         &self.test
     }

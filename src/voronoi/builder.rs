@@ -2,12 +2,12 @@
 
 use glam::DVec3;
 
+use super::HORIZON;
 use super::clip::{Cell, View};
 use super::diagram::Diagram;
 use super::error::VoronoiError;
 use super::measure::{Corner, measure};
 use super::ray::Ray;
-use super::HORIZON;
 
 /// Most sites of a diagram; it has fewer than 12 edge ends a site, and their offsets are `u32`.
 const MOST_SITES: usize = (u32::MAX / 16) as usize;

@@ -20,6 +20,11 @@ impl Camera {
         Self { eye, forward, right: right * tangent_of_half_height, up: up * tangent_of_half_height }
     }
 
+    /// The same camera with left and right exchanged: image right is up × forward.
+    pub fn mirrored(self) -> Self {
+        Self { right: -self.right, ..self }
+    }
+
     /// The ray (origin, unit direction) through the continuous point `(x, y)` of a `width` × `height` picture.
     ///
     /// The origin of the picture is its upper left corner; the centre of pixel (i, j) is (i + .5, j + .5).

@@ -10,7 +10,8 @@ impl Scene {
     /// A closed L-shaped corridor in metres, y up, 2.5 high: x 0..2, z 0..6 and x 2..6, z 4..6, with a red cube on the floor.
     ///
     /// The light is at the end of the branch, out of view, and shines along −x; the floor at the left of the cube gets none of
-    /// it ([`in_indirect_shadow`]). The camera has 50° of height.
+    /// it ([`Self::in_indirect_shadow`]). The camera has 50° of height; x grows to the right of its picture, which is a
+    /// left-handed frame, so that the wall x = 0 is the left one.
     pub fn corridor() -> Self {
         let slack = SIZE * Scene::SLACK;
         let wall = dvec3(0.75, 0.75, 0.72);
@@ -21,19 +22,22 @@ impl Scene {
         // x > 2, z < 4 is wall.
         let corner = Solid::new(&[(DVec3::NEG_X, -2.0), (DVec3::Z, 4.0)], wall, slack);
         let cube = Solid::block([(0.6, 4.0), (1.2, 4.0), (1.2, 4.6), (0.6, 4.6)], 0.6, dvec3(0.65, 0.06, 0.05), slack);
-        let camera = Camera::new(dvec3(1.25, 1.35, 0.30), dvec3(0.95, 0.80, 6.0), TANGENT_OF_25_DEGREES);
-        Self::new("corridor", SIZE, camera, room).with_solids(vec![corner, cube]).with_light(Light::new(
-            dvec3(5.98, 0.75, 4.5),
-            dvec3(5.98, 1.75, 5.5),
-            DVec3::NEG_X,
-            dvec3(24.0, 22.0, 19.0),
-        ))
+        let camera = Camera::new(dvec3(1.25, 1.35, 0.30), dvec3(0.95, 0.80, 6.0), TANGENT_OF_25_DEGREES).mirrored();
+        Self::new("corridor", SIZE, camera, room)
+            .with_solids(vec![corner, cube])
+            .with_light(Light::new(
+                dvec3(5.98, 0.75, 4.5),
+                dvec3(5.98, 1.75, 5.5),
+                DVec3::NEG_X,
+                dvec3(24.0, 22.0, 19.0),
+            ))
+            .with_shadow_patch(at_the_foot_of_the_left_wall)
     }
 }
 
 const TANGENT_OF_25_DEGREES: f64 = 0.466_307_658_154_998_6;
 
 /// Whether a point of the corridor lies on the patch of floor at the left of the cube that only indirect light reaches.
-pub fn in_indirect_shadow(position: DVec3) -> bool {
+fn at_the_foot_of_the_left_wall(position: DVec3) -> bool {
     position.y.abs() <= SIZE * Scene::SLACK && (0.0..=0.6).contains(&position.x) && (4.0..=4.6).contains(&position.z)
 }

@@ -27,7 +27,6 @@ mod solid;
 mod source;
 
 pub use camera::Camera;
-pub use corridor::in_indirect_shadow;
 pub use light::Light;
 pub use room::Room;
 pub use scene::{Hit, Scene};

@@ -172,7 +172,8 @@ fn render_through_cache(
                 if batch.is_empty() {
                     break;
                 }
-                let vectors: Vec<LightVector> = batch.par_iter().map(|&pixel| gather(pixel)).collect::<Result<_, _>>()?;
+                let vectors: Vec<LightVector> =
+                    batch.par_iter().map(|&pixel| gather(pixel)).collect::<Result<_, _>>()?;
                 for (&pixel, vector) in batch.iter().zip(vectors) {
                     let surface = view.lit(pixel).expect("only lit pixels are gathered");
                     rays += u64::from(vector.rays());

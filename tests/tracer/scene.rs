@@ -25,6 +25,8 @@ pub struct Scene {
     toward_light: Vec<[bool; 6]>,
     /// Radiant exitance of every wall and solid: a furnace glows.
     exitance: DVec3,
+    /// Where only indirect light comes, if there is a place of that kind to be looked at on its own.
+    shadow_patch: Option<fn(DVec3) -> bool>,
 }
 
 /// Where a ray meets a surface.
@@ -45,7 +47,7 @@ impl Scene {
 
     pub(super) fn new(name: &'static str, size: f64, camera: Camera, room: Room) -> Self {
         let (solids, toward_light) = (Vec::new(), Vec::new());
-        Self { name, size, camera, room, solids, light: None, toward_light, exitance: DVec3::ZERO }
+        Self { name, size, camera, room, solids, light: None, toward_light, exitance: DVec3::ZERO, shadow_patch: None }
     }
 
     pub(super) fn with_solids(self, solids: Vec<Solid>) -> Self {
@@ -58,6 +60,10 @@ impl Scene {
 
     pub(super) fn glowing(self, exitance: DVec3) -> Self {
         Self { exitance, ..self }
+    }
+
+    pub(super) fn with_shadow_patch(self, contains: fn(DVec3) -> bool) -> Self {
+        Self { shadow_patch: Some(contains), ..self }
     }
 
     fn prepared(mut self) -> Self {
@@ -76,6 +82,11 @@ impl Scene {
     /// The light; a furnace has none.
     pub fn light(&self) -> Option<&Light> {
         self.light.as_ref()
+    }
+
+    /// Whether `position` lies on the patch of the scene that only indirect light reaches; never, where there is none.
+    pub fn in_indirect_shadow(&self, position: DVec3) -> bool {
+        self.shadow_patch.is_some_and(|contains| contains(position))
     }
 
     /// Whether every ray from inside meets a surface.
