@@ -2,14 +2,18 @@
 
 mod bernoulli;
 mod bounds;
+mod characteristic;
+mod compensated;
 mod counts;
 mod family;
 mod looks;
+mod recursion;
 mod run;
 mod sequential;
 
 pub use bernoulli::{Bernoulli, BernoulliError};
 pub use bounds::{Bounds, BoundsError};
+pub use characteristic::{CHARACTERISTIC_WORK, Characteristic, CharacteristicError, LawPoint};
 pub use counts::CountsError;
 pub use family::Family;
 pub use looks::Looks;

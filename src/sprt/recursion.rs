@@ -1,0 +1,191 @@
+//! Forward recursion on (observations, successes): the exact law of a Bernoulli test.
+//!
+//! # Model
+//! The undecided probability of each number of successes is carried from one observation to the next,
+//! `v'(s) = (1 − p)·v(s) + p·v(s − 1)`; a look takes away the cells at or outside the boundaries. Only positive
+//! numbers are added, so nothing cancels.
+//!
+//! # Source
+//! Aroian (1968), Sequential analysis, direct method, Technometrics 10.
+
+use alloc::vec::Vec;
+
+use super::characteristic::{CharacteristicError, LawPoint};
+use super::{Bernoulli, Decision, Sprt};
+
+/// Work of one observation besides its cells, in cells; it also limits the memory that the law takes.
+const STEP_WORK: u64 = 32;
+
+/// Looks between two measurements of the undecided probability.
+const CHECK: u32 = 16;
+
+/// A cell below this is dropped: it would only slow the recursion down as a subnormal number.
+const NEGLIGIBLE: f64 = 1e-290;
+
+/// The recursion ends when what is undecided is this part of both the accepted and the rejected probability …
+const REMAINDER: f64 = f64::EPSILON / 4.0;
+
+/// … where neither counts as less than this.
+const LEAST: f64 = 1e-40;
+
+/// What the recursion found.
+pub(super) struct Outcome {
+    /// The stopping points with their probabilities, in the order of their samples.
+    pub law: Vec<LawPoint>,
+    /// Probability of reaching the limit undecided.
+    pub undecided: f64,
+    /// Probability left undecided where the recursion ended without reaching the limit.
+    pub remainder: f64,
+    /// Observations at which it ended.
+    pub samples: u64,
+}
+
+/// The undecided probabilities after some number of observations.
+///
+/// A *hit* is the outcome that raises the ratio: a success if `p1 > p0`, else a failure.
+struct Walk {
+    /// The cells in use are `cells[start..]`; `cells[start]` is the one of `base` hits.
+    cells: Vec<f64>,
+    start: usize,
+    base: u64,
+    hit: f64,
+    miss: f64,
+}
+
+impl Walk {
+    fn new(hit: f64, miss: f64) -> Self {
+        let mut cells = Vec::with_capacity(64);
+        cells.push(1.0);
+        Self { cells, start: 0, base: 0, hit, miss }
+    }
+
+    fn live(&self) -> &[f64] {
+        &self.cells[self.start..]
+    }
+
+    /// One observation.
+    #[inline]
+    fn advance(&mut self) {
+        let (hit, miss) = (self.hit, self.miss);
+        let mut below = 0.0;
+        for cell in &mut self.cells[self.start..] {
+            let here = *cell;
+            *cell = miss * here + hit * below;
+            below = here;
+        }
+        self.cells.push(hit * below);
+    }
+
+    /// Takes away the cells of fewer than `accept` hits and those of at least `reject` hits; their sums.
+    #[inline]
+    fn absorb(&mut self, accept: u64, reject: u64) -> (f64, f64) {
+        let (mut accepted, mut rejected) = (0.0, 0.0);
+        while self.base < accept && self.start < self.cells.len() {
+            accepted += self.cells[self.start];
+            self.start += 1;
+            self.base += 1;
+        }
+        while self.start < self.cells.len() && self.base + self.live().len() as u64 > reject {
+            rejected += self.cells.pop().unwrap_or(0.0);
+        }
+        if self.start > 64 && self.start > self.live().len() {
+            let live = self.start..self.cells.len();
+            self.cells.copy_within(live, 0);
+            self.cells.truncate(self.cells.len() - self.start);
+            self.start = 0;
+        }
+        (accepted, rejected)
+    }
+
+    /// Drops negligible cells at both ends, and tells the probability that is left.
+    fn trim(&mut self) -> f64 {
+        while self.live().first().is_some_and(|cell| *cell < NEGLIGIBLE) {
+            self.start += 1;
+            self.base += 1;
+        }
+        while self.live().last().is_some_and(|cell| *cell < NEGLIGIBLE) {
+            self.cells.pop();
+        }
+        self.live().iter().sum()
+    }
+}
+
+/// The law of `test` under the probability of success `p`, strictly between 0 and 1, within `work` cells.
+pub(super) fn law(test: &Sprt<Bernoulli>, p: f64, work: u64) -> Result<Outcome, CharacteristicError> {
+    let rising = test.family().p1() > test.family().p0();
+    let mut walk = if rising { Walk::new(p, 1.0 - p) } else { Walk::new(1.0 - p, p) };
+    let decision = |hits: u64, samples: u64| {
+        let (successes, failures) = if rising { (hits, samples - hits) } else { (samples - hits, hits) };
+        test.family().decision(successes, failures, test.bounds())
+    };
+
+    let mut law = Vec::with_capacity(256);
+    let (mut accept, mut reject) = (0.0, 0.0);
+    // Fewer hits than the one accept H0, at least the other reject it; both can only grow with the samples.
+    let (mut accept_edge, mut reject_edge) = (0, 0);
+    let (mut samples, mut next_look) = (0, test.look_after(0));
+    let (mut spent, mut looks) = (0_u64, 0_u32);
+    loop {
+        spent = spent.saturating_add(walk.live().len() as u64 + STEP_WORK);
+        if spent > work {
+            return Err(CharacteristicError::Work { samples, undecided: walk.trim() });
+        }
+        walk.advance();
+        samples += 1;
+        if samples < next_look {
+            if samples % u64::from(CHECK) == 0 {
+                walk.trim();
+            }
+            continue;
+        }
+        while accept_edge <= samples && decision(accept_edge, samples) == Some(Decision::AcceptH0) {
+            accept_edge += 1;
+        }
+        while reject_edge <= samples && decision(reject_edge, samples) != Some(Decision::RejectH0) {
+            reject_edge += 1;
+        }
+        let (accepted, rejected) = walk.absorb(accept_edge, reject_edge);
+        if accepted + rejected > 0.0 {
+            law.push(LawPoint { samples, accept: accepted, reject: rejected });
+            accept += accepted;
+            reject += rejected;
+        }
+        if samples >= test.limit() {
+            return Ok(Outcome { law, undecided: walk.trim(), remainder: 0.0, samples });
+        }
+        looks += 1;
+        if looks % CHECK == 0 || walk.live().is_empty() {
+            let remainder = walk.trim();
+            if remainder <= REMAINDER * accept.min(reject).max(LEAST) {
+                return Ok(Outcome { law, undecided: 0.0, remainder, samples });
+            }
+        }
+        next_look = test.look_after(samples);
+    }
+}
+
+/// The law under a probability of success of 0 or 1: one point, found by bisection.
+pub(super) fn certain_law(test: &Sprt<Bernoulli>, success: bool) -> Outcome {
+    let decision = |samples: u64| {
+        let (successes, failures) = if success { (samples, 0) } else { (0, samples) };
+        test.family().decision(successes, failures, test.bounds())
+    };
+    let (first, step) = (test.look_schedule().first(), test.look_schedule().step());
+    // Looks number `low..high` within the limit; the ratio moves one way, so decided looks follow undecided ones.
+    let (mut low, mut high) = (0, test.limit().checked_sub(first).map_or(0, |rest| rest / step + 1));
+    while low < high {
+        let middle = low + (high - low) / 2;
+        if decision(first + middle * step).is_some() {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    let samples = (first + low * step).min(test.limit());
+    let (accept, reject) = match decision(samples) {
+        Some(Decision::AcceptH0) => (1.0, 0.0),
+        Some(Decision::RejectH0) => (0.0, 1.0),
+        None => return Outcome { law: Vec::new(), undecided: 1.0, remainder: 0.0, samples },
+    };
+    Outcome { law: alloc::vec![LawPoint { samples, accept, reject }], undecided: 0.0, remainder: 0.0, samples }
+}
