@@ -58,7 +58,7 @@ fn lattice(step: u8) -> DVec3 {
 }
 
 fn ulp(value: f64) -> f64 {
-    value.abs().next_up() - value.abs()
+    f64::from_bits(value.abs().to_bits() + 1) - value.abs()
 }
 
 fn angle(vertices: &[DVec3]) -> f64 {
