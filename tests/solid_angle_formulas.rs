@@ -94,7 +94,7 @@ fn the_arccosine_loses_half_the_digits_of_a_small_triangle_and_the_kernel_none()
     let [a, b, c] = [DVec3::Z, DVec3::new(s, 0.0, 1.0), DVec3::new(0.0, s, 1.0)].map(DVec3::normalize);
     let want = 0.5 * s * s; // flat, up to s²
     let got = solid_angle::triangle(a, b, c).unwrap();
-    assert!((got - want).abs() <= bound("polygon", "flat") * want, "{got:e} against {want:e}");
+    assert!((got - want).abs() <= bound("polygon", "law: flat") * want, "{got:e} against {want:e}");
     let paper = formula::interior_angles_acos(&[a, b, c]);
     assert!((paper - want).abs() > 0.5 * want, "{paper:e} would be right");
 }
