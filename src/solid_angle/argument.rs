@@ -79,6 +79,7 @@ fn first_octant(x: Double, y: Double, arctangent: impl Fn(Double) -> Double) -> 
 
 /// atan(k/64) for k = 0 … 64, each as a double and what is left of it.
 #[rustfmt::skip]
+#[allow(clippy::approx_constant, reason = "a table of arctangents holds π/4")]
 const ARCTANGENTS: [(f64, f64); 65] = [
     (0.0, 0.0),
     (0.015_623_728_620_476_831, -4.913_600_136_566_304e-19),

@@ -17,15 +17,31 @@ pub const TABLE: &[(&str, &str, f64, &str)] = &[
     // The exact value is a rounding accident, 10⁻¹⁶ of the lobes that cancel in it.
     ("signed_polygon", "bowtie_sym", 4.0, "searched: oracle"),
     // Two results of the same exact value; each is within 0.51 ulp of it.
-    ("signed_polygon", "law", 1.0, "follows from the oracle's bound"),
+    ("signed_polygon", "law: any", 1.0, "follows from the oracle's bound"),
     // Ulp of 4π in the sum of an area and its complement, or of a few areas.
-    ("polygon", "law", 2.0, "follows from the oracle's bound"),
-    // Two parts and the whole, in ulp of the largest of the three.
-    ("signed_polygon", "sum", 2.0, "follows from the oracle's bound"),
+    ("polygon", "law: any", 2.0, "follows from the oracle's bound"),
+    // Two parts and the whole, in ulp of the largest of the three, and the roundings of the sum itself.
+    ("signed_polygon", "law: sum", 4.0, "follows from the oracle's bound"),
     // In units of 2⁻⁵² of the lengths involved, for each vertex.
-    ("vector_moment", "law", 8.0, "searched: laws"),
+    ("vector_moment", "law: any", 8.0, "searched: laws"),
     // Relative, of a regular polygon whose vertices are rounded.
-    ("polygon", "cap", 1e-13, "searched: laws"),
+    ("polygon", "law: cap", 1e-13, "searched: laws"),
+    // Absolute, on convex rings of radius 0.1 to 1.2.
+    ("interior_angles_acos", "ring", 1e-12, "searched: formulas"),
+    ("interior_angles_atan2", "ring", 1e-12, "searched: formulas"),
+    ("interior_angles_asin", "ring", 1e-12, "searched: formulas"),
+    ("turning", "ring", 1e-12, "searched: formulas"),
+    ("polar_triangles", "ring", 1e-12, "searched: formulas"),
+    ("fast_polygon", "ring", 1e-14, "searched: formulas"),
+    ("fast", "ring", 1e-14, "searched: formulas"),
+    ("van_oosterom_strackee", "ring", 1e-13, "searched: formulas"),
+    ("eriksson", "ring", 1e-13, "searched: formulas"),
+    ("eriksson_from_differences", "ring", 1e-14, "searched: formulas"),
+    ("l_huilier", "ring", 1e-12, "searched: formulas"),
+    // Relative to the perimeter.
+    ("fast_vector_moment", "ring", 1e-15, "searched: formulas"),
+    // Relative, of a triangle of 1e-8 against its flat area.
+    ("polygon", "law: flat", 1e-15, "s² of the triangle"),
     // Absolute, against the compensated kernel on the triangles and rings of the benchmark, before it times anything.
     ("compensated", "bench", 0.0, "same function"),
     ("polygon", "bench", 0.0, "same function"),
