@@ -22,7 +22,11 @@ fn sums(diagram: &voronoi::Diagram) -> (f64, DVec3) {
 fn check_sums(sites: &[DVec3], pole: DVec3) {
     let allowed = bound("sum", "*");
     let near = |what: &str, got: f64, want: f64| {
-        assert!((got - want).abs() <= allowed, "{what} of {} cells: got {got}, want {want} within {allowed}", sites.len());
+        assert!(
+            (got - want).abs() <= allowed,
+            "{what} of {} cells: got {got}, want {want} within {allowed}",
+            sites.len()
+        );
     };
     let (solid_angle, moment) = sums(&voronoi::sphere(sites).expect("sites are valid"));
     near("solid angles of the sphere", solid_angle, 2.0 * TAU);

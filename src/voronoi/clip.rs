@@ -90,7 +90,11 @@ impl<'a> View<'a> {
     fn unit(&self, vector: DVec3, id: u32) -> DVec3 {
         let square = vector.length_squared();
         // Below 2⁻⁴⁰ the error of the rests, 2⁻¹⁰⁰, begins to show.
-        if square > 1.0 / (1u128 << 80) as f64 { vector / square.sqrt() } else { self.plane(id).twofold(self.site).hi() }
+        if square > 1.0 / (1u128 << 80) as f64 {
+            vector / square.sqrt()
+        } else {
+            self.plane(id).twofold(self.site).hi()
+        }
     }
 }
 
@@ -112,7 +116,7 @@ pub(super) struct Edge {
 pub(super) struct Cell {
     pub edges: Vec<Edge>,
     spare: Vec<Edge>,
-    sides: Vec<i32>,
+    pub(super) sides: Vec<i32>,
     reach: f64,
     pub empty: bool,
 }

@@ -77,7 +77,8 @@ pub fn make(kind: Kind, n: usize, rng: &mut Pcg64) -> Vec<DVec3> {
     let n = if kind == Kind::AllExponents { n.min(16) } else { n };
     let part = |i: usize, of: usize| i as f64 / of as f64;
     let columns = (n as f64).sqrt().ceil() as usize;
-    let lattice = |i: usize| at(1.0 - 2.0 * (part(i / columns, columns) + 0.5 / columns as f64), part(i % columns, columns));
+    let lattice =
+        |i: usize| at(1.0 - 2.0 * (part(i / columns, columns) + 0.5 / columns as f64), part(i % columns, columns));
     let centre = direction(rng);
     let integer = |rng: &mut Pcg64| f64::from(rng.random_range(-3..4i32));
     let few: Vec<DVec3> = (0..5).map(|_| direction(rng)).collect();
