@@ -9,10 +9,25 @@ use super::error::VoronoiError;
 use super::measure::{Corner, measure};
 use super::ray::Ray;
 
-/// Most sites of a diagram; it has fewer than 12 edge ends a site, and their offsets are `u32`.
+/// Most sites of a diagram, whose cells have fewer than 6 edges a site and 2 on the horizon: offsets are `u32`.
 const MOST_SITES: usize = (u32::MAX / 16) as usize;
 
-/// Builds diagrams one after another without allocating anew.
+/// Builds diagrams one after another; allocates only where a diagram is larger than all before.
+///
+/// # Examples
+///
+/// ```
+/// use std::f64::consts::PI;
+/// use steradian::{glam::DVec3, voronoi::{Builder, SOLID_ANGLE_ERROR}};
+///
+/// let mut builder = Builder::new();
+/// for turn in 0..100 {
+///     let (sine, cosine) = f64::from(turn).sin_cos();
+///     let dome = builder.hemisphere(&[DVec3::new(cosine, sine, 1.0), DVec3::new(-cosine, -sine, 1.0)], DVec3::Z)?;
+///     assert!((dome.solid_angles()[0] - PI).abs() <= SOLID_ANGLE_ERROR);
+/// }
+/// # Ok::<(), steradian::voronoi::VoronoiError>(())
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct Builder {
     rays: Vec<Ray>,
@@ -32,6 +47,7 @@ impl Builder {
     /// The diagram of the whole sphere; see [`sphere`](super::sphere).
     ///
     /// # Errors
+    ///
     /// Those of [`sphere`](super::sphere).
     pub fn sphere(&mut self, sites: &[DVec3]) -> Result<&Diagram, VoronoiError> {
         self.set_rays(sites)?;
@@ -42,6 +58,7 @@ impl Builder {
     /// The diagram clipped by the horizon of `pole`; see [`hemisphere`](super::hemisphere).
     ///
     /// # Errors
+    ///
     /// Those of [`hemisphere`](super::hemisphere).
     pub fn hemisphere(&mut self, sites: &[DVec3], pole: DVec3) -> Result<&Diagram, VoronoiError> {
         if !pole.is_finite() {
@@ -143,3 +160,30 @@ const FIRST_RING: f64 = 8.0;
 
 /// Sites of smaller cosine cannot have the same direction.
 const NEAR: f64 = 1.0 - 1.0 / (1u64 << 40) as f64;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every buffer of a builder: where it is and how much it holds.
+    fn buffers(builder: &Builder) -> [(usize, usize); 5] {
+        fn of<T>(buffer: &Vec<T>) -> (usize, usize) {
+            (buffer.as_ptr() as usize, buffer.capacity())
+        }
+        [of(&builder.rays), of(&builder.cosines), of(&builder.ring), of(&builder.corners), of(&builder.cell.sides)]
+    }
+
+    #[test]
+    fn a_warm_builder_keeps_its_buffers() {
+        let sites: Vec<DVec3> =
+            (0..100).map(|k| DVec3::new(f64::from(k % 10) - 4.5, f64::from(k / 10) - 4.5, 3.0)).collect();
+        let mut builder = Builder::new();
+        for pass in 0..3 {
+            let before = (buffers(&builder), builder.diagram.buffers());
+            assert!(builder.sphere(&sites).is_ok());
+            assert!(builder.hemisphere(&sites, DVec3::Z).is_ok());
+            assert!(builder.hemisphere(&sites[..10], DVec3::X).is_ok());
+            assert!(pass == 0 || before == (buffers(&builder), builder.diagram.buffers()), "in pass {pass}");
+        }
+    }
+}

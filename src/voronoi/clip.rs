@@ -116,7 +116,7 @@ pub(super) struct Edge {
 pub(super) struct Cell {
     pub edges: Vec<Edge>,
     spare: Vec<Edge>,
-    sides: Vec<i32>,
+    pub(super) sides: Vec<i32>,
     reach: f64,
     pub empty: bool,
 }

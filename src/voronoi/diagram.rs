@@ -5,7 +5,10 @@ use glam::DVec3;
 /// In place of a site's index: what lies across an edge on the horizon of a hemisphere.
 pub const HORIZON: u32 = u32::MAX;
 
-/// A Voronoi diagram of the sphere or of a hemisphere.
+/// A Voronoi diagram of the sphere or of a hemisphere, made by [`sphere`](super::sphere),
+/// [`hemisphere`](super::hemisphere) or a [`Builder`](super::Builder).
+///
+/// Cells are in the order of the sites, and all vertices and neighbours lie in two flat arrays.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Diagram {
     pole: Option<DVec3>,
@@ -41,6 +44,7 @@ impl Diagram {
     /// The cell of site `index`.
     ///
     /// # Panics
+    ///
     /// If `index` is not below [`len`](Self::len), as in a slice.
     pub fn cell(&self, index: usize) -> Cell<'_> {
         assert!(index < self.len(), "the cell {index} was asked of a diagram of {} sites", self.len());
@@ -132,22 +136,37 @@ impl<'a> Cell<'a> {
         self.diagram.sites[self.index]
     }
 
-    /// Solid angle in steradians.
+    /// Solid angle in steradians, in [0, 4π]; 0 if the cell is empty or another site owns it.
+    ///
+    /// # Accuracy
+    ///
+    /// [`SOLID_ANGLE_ERROR`](super::SOLID_ANGLE_ERROR).
     pub fn solid_angle(&self) -> f64 {
         self.diagram.solid_angles[self.index]
     }
 
-    /// Vector moment ∫ ω dω.
+    /// Vector moment ∫ ω dω over the cell; its product with a surface normal is the projected solid angle (Lambert's law),
+    /// if the cell is above that surface.
+    ///
+    /// # Accuracy
+    ///
+    /// [`SOLID_ANGLE_ERROR`](super::SOLID_ANGLE_ERROR) for each component.
     pub fn vector_moment(&self) -> DVec3 {
         self.diagram.vector_moments[self.index]
     }
 
-    /// The corners, unit vectors, counter-clockwise seen from outside.
+    /// The corners, unit vectors, counter-clockwise seen from outside; edge k leads from corner k to the next one.
+    ///
+    /// # Accuracy
+    ///
+    /// [`CORNER_ERROR`](super::CORNER_ERROR).
     pub fn vertices(&self) -> &'a [DVec3] {
         part(&self.diagram.vertices, &self.diagram.vertex_ends, self.index)
     }
 
-    /// The sites across the edges.
+    /// The sites across the edges, in the same order, as owners of their cells; [`HORIZON`] across the horizon.
+    ///
+    /// A hemisphere has one edge though no corner.
     pub fn neighbors(&self) -> &'a [u32] {
         part(&self.diagram.neighbors, &self.diagram.neighbor_ends, self.index)
     }
@@ -156,4 +175,21 @@ impl<'a> Cell<'a> {
 fn part<'a, T>(all: &'a [T], ends: &[u32], index: usize) -> &'a [T] {
     let start = if index == 0 { 0 } else { ends[index - 1] };
     &all[start as usize..ends[index] as usize]
+}
+
+#[cfg(test)]
+impl Diagram {
+    /// Capacities of the buffers, for the test that a warm builder keeps them.
+    pub(super) fn buffers(&self) -> [usize; 8] {
+        [
+            self.sites.capacity(),
+            self.owners.capacity(),
+            self.solid_angles.capacity(),
+            self.vector_moments.capacity(),
+            self.neighbor_ends.capacity(),
+            self.neighbors.capacity(),
+            self.vertex_ends.capacity(),
+            self.vertices.capacity(),
+        ]
+    }
 }

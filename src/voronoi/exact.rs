@@ -160,3 +160,62 @@ pub(super) fn sign_of_four<const N: usize>(terms: &[Root<N>; 4]) -> i32 {
     let second = (c.0.multiply(&d.0).times_two().negate(), c.1.multiply(&d.1));
     s * sign_of_three(&whole, &first, &second)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn integer(x: i64) -> Integer<8> {
+        Integer::from_parts(x < 0, x.unsigned_abs(), 0)
+    }
+
+    #[test]
+    fn arithmetic_is_that_of_i128() {
+        let values = [0, 1, -1, 7, -12, i64::MAX, i64::MIN, 1 << 40, -(1 << 33) + 1];
+        let same = |got: Integer<8>, want: i128| {
+            let magnitude = got.magnitude().iter().rev().fold(0u128, |sum, &digit| sum << 64 | u128::from(digit));
+            assert_eq!((got.sign(), magnitude), (want.signum() as i32, want.unsigned_abs()));
+        };
+        for a in values {
+            for b in values {
+                same(integer(a).multiply(&integer(b)), i128::from(a) * i128::from(b));
+                same(integer(a).add(&integer(b)), i128::from(a) + i128::from(b));
+                same(integer(a).subtract(&integer(b)), i128::from(a) - i128::from(b));
+            }
+        }
+    }
+
+    #[test]
+    fn carries_and_borrows_cross_digits() {
+        let power = |shift| Integer::<8>::from_parts(false, 1, shift);
+        let difference = power(300).subtract(&power(3));
+        assert_eq!(difference.add(&power(3)).compare_magnitude(&power(300)), Ordering::Equal);
+        assert_eq!(difference.len, 5);
+        assert_eq!(Integer::<8>::from_parts(false, u64::MAX, 60).magnitude(), [0xf << 60, u64::MAX >> 4]);
+    }
+
+    #[test]
+    fn sums_of_roots_have_the_sign_of_doubles_where_these_can_tell() {
+        let numbers = [-3i64, -2, -1, 0, 1, 2, 3];
+        for code in 0..numbers.len().pow(4) {
+            let pick = |k: u32| numbers[code / numbers.len().pow(k) % numbers.len()];
+            let radicands = [2i64, 3, 5, 7].map(|r| r * r * if code % 3 == 0 { 1 } else { r });
+            let terms: [Root<8>; 4] = core::array::from_fn(|k| (integer(pick(k as u32)), integer(radicands[k])));
+            let sum: f64 = (0..4).map(|k| pick(k as u32) as f64 * (radicands[k] as f64).sqrt()).sum();
+            // Beyond its rounding a sum of such roots is zero or at least 10⁻⁴.
+            let want = if sum.abs() < f64::EPSILON.sqrt() { 0 } else { sum.signum() as i32 };
+            assert_eq!(sign_of_four(&terms), want, "{sum}");
+        }
+    }
+
+    #[test]
+    fn roots_that_cancel_to_many_digits_are_told_from_zero() {
+        // √(n² − 1) + √(n² + 1) − 2n = −1/(4n³) + …, about 10⁻²⁸ for n = 10⁹.
+        let n = 1_000_000_000i64;
+        let square = integer(n).square();
+        let (below, above) = (square.subtract(&integer(1)), square.add(&integer(1)));
+        let zero = (integer(0), integer(0));
+        assert_eq!(sign_of_four(&[(integer(1), below), (integer(1), above), (integer(-2), square), zero]), -1);
+        assert_eq!(sign_of_four(&[(integer(1), square), (integer(1), square), (integer(-2), square), zero]), 0);
+    }
+}

@@ -18,6 +18,12 @@ use glam::DVec3;
 use super::clip::{Cell, Edge, View};
 use crate::float::atan2;
 
+/// Bound of the error of the solid angle of a cell, in steradians, and of each component of its vector moment.
+///
+/// Searched, for cells of up to 40 edges; of narrow cells also relative. From the parts: four angles of 2⁻⁵³ × 2 each,
+/// and normals that are right to 2⁻⁵¹.
+pub const SOLID_ANGLE_ERROR: f64 = 4e-15;
+
 /// Corners of smaller sine than this, and corners of cells narrower than `NARROW`, are computed in twofold numbers.
 const SHARP: f64 = 0.25;
 

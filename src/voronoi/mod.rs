@@ -1,4 +1,58 @@
-//! Voronoi diagrams of the sphere and of a hemisphere.
+//! Voronoi diagrams of directions, on the sphere and on a hemisphere.
+//!
+//! # Model
+//!
+//! A site is a direction: the ray from the origin through the given doubles, exactly, whatever their size. With u_i the
+//! unit vector along site i,
+//! ```text
+//! cell i of the sphere      = { x : |x| = 1, x·u_i ≥ x·u_j for all j }
+//! cell i of the hemisphere  = cell i of the sphere ∩ { x : x·pole ≥ 0 }
+//! ```
+//! Sites with the same direction have one cell: the site of lowest index owns it, the others have none.
+//! Sites may be below the horizon of a hemisphere; their cells may reach above it all the same, or be empty.
+//!
+//! An outline goes counter-clockwise seen from outside. Edge k leads from vertex k to vertex k + 1, and neighbour k is
+//! across it, [`HORIZON`] across the horizon. A polygon has as many edges as vertices; a lune has two of both, and the
+//! vertices are antipodal; a hemisphere has one edge and no vertex; the whole sphere and an empty cell have neither.
+//! Cells that meet in a point only, or along an arc of the horizon, are no neighbours.
+//!
+//! # Guarantees
+//!
+//! 1. Which cell has which neighbours in which order is exact, by integers where doubles cannot tell: no tolerance decides
+//!    it, and any sites are valid (few, on one circle, antipodal, one unit in the last place apart, at a distance of
+//!    10⁻³⁰⁰): tests/voronoi_oracle.rs.
+//! 2. Cells partition the sphere or the hemisphere: solid angles sum to 4π or 2π, vector moments to 0 or π times the
+//!    pole: tests/voronoi_partition.rs.
+//! 3. Every point belongs to the nearest site: tests/voronoi_ownership.rs.
+//! 4. Powers of two do not change a bit: multiply any site by one: tests/invariants/voronoi.rs.
+//! 5. The order of the sites changes neighbours not at all and measures in the last bits only; a hemisphere and the
+//!    opposite one make the sphere: tests/voronoi_ownership.rs.
+//! 6. No input panics or hangs, and no number of a diagram is NaN.
+//!
+//! # Accuracy
+//!
+//! The error of a solid angle or a vector moment is below [`SOLID_ANGLE_ERROR`] (searched: tests/voronoi_oracle.rs, the
+//! worst seen is 1.4·10⁻¹⁵), and for cells narrower than 1/64 below that times the solid angle (the worst seen is
+//! 7·10⁻¹⁶ of it, for cells from 10⁻⁴ down to 10⁻³³ sr). Not guaranteed: cells longer than 60° and thinner than 10⁻³
+//! have the absolute bound only; the corner of three sites that are within 10⁻²⁰ of each other and of a great circle may
+//! be off along that circle's bisector; components below 2⁻¹⁰²² of the largest component of their site are rounded to
+//! multiples of 2⁻¹⁰⁷⁴ of it.
+//!
+//! # Implementation
+//!
+//! Each cell by itself is cut from the sphere by half-spaces, near sites first, until no site is left that reaches it:
+//! time grows as n² in the end, and as n for hundreds of sites. The decisions of the integers are a thousand times slower
+//! than others; random sites never need them, exact lattices do at every corner.
+//!
+//! # Not here
+//!
+//! Solid angles of polygons that are given by their vertices: [`solid_angle`](crate::solid_angle). Weighted sites, caps
+//! other than hemispheres, point location.
+//!
+//! # Source
+//!
+//! Brown (1979), Voronoi diagrams from convex hulls; Sutherland and Hodgman (1974), Reentrant polygon clipping; Girard
+//! (1626) and Lambert (1760) for the measures.
 
 mod builder;
 mod clip;
@@ -16,20 +70,38 @@ use glam::DVec3;
 pub use builder::Builder;
 pub use diagram::{Cell, Diagram, HORIZON};
 pub use error::VoronoiError;
+pub use measure::SOLID_ANGLE_ERROR;
 pub use validate::{CORNER_ERROR, Defect, ERROR_PER_EDGE};
 
-/// The Voronoi diagram of `sites` on the whole sphere.
+/// The Voronoi diagram of `sites` on the whole sphere; its cells sum to 4π.
+///
+/// For many diagrams one after another, a [`Builder`] does not allocate anew.
+///
+/// # Shapes
+///
+/// Any vectors but zero, at least one; their directions count and their lengths do not.
 ///
 /// # Errors
-/// No sites, a site that is zero or not finite, too many sites.
+///
+/// - [`NoSites`](VoronoiError::NoSites), [`TooManySites`](VoronoiError::TooManySites): none, or more than 2²⁸ − 1.
+/// - [`NotFinite`](VoronoiError::NotFinite), [`ZeroSite`](VoronoiError::ZeroSite): the first site without a direction.
+///
+/// # Accuracy
+///
+/// [`SOLID_ANGLE_ERROR`]; neighbours are exact. See the [module](self#accuracy).
 ///
 /// # Examples
+///
+/// Each of the six directions of the axes owns a sixth of the sphere, 4π/6, and has four neighbours.
 /// ```
+/// use std::f64::consts::PI;
 /// use steradian::{glam::DVec3, voronoi};
+///
 /// let sites = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
 /// let octahedron = voronoi::sphere(&sites)?;
 /// for cell in octahedron.cells() {
-///     assert!((cell.solid_angle() - 4.0 * std::f64::consts::PI / 6.0).abs() < 1e-15);
+///     assert!((cell.solid_angle() - 4.0 * PI / 6.0).abs() <= voronoi::SOLID_ANGLE_ERROR);
+///     assert_eq!(cell.neighbors().len(), 4);
 /// }
 /// # Ok::<(), voronoi::VoronoiError>(())
 /// ```
@@ -39,10 +111,36 @@ pub fn sphere(sites: &[DVec3]) -> Result<Diagram, VoronoiError> {
     Ok(builder.into_diagram())
 }
 
-/// The Voronoi diagram of `sites`, clipped to the hemisphere around `pole`.
+/// The Voronoi diagram of `sites`, clipped to the hemisphere around `pole`; its cells sum to 2π.
+///
+/// # Shapes
+///
+/// Sites as in [`sphere`], above or below the horizon; `pole` any vector but zero.
 ///
 /// # Errors
-/// Those of [`sphere`], and a pole that is zero or not finite.
+///
+/// - [`PoleNotFinite`](VoronoiError::PoleNotFinite), [`ZeroPole`](VoronoiError::ZeroPole): the pole has no direction.
+/// - Those of [`sphere`].
+///
+/// # Accuracy
+///
+/// [`SOLID_ANGLE_ERROR`]; neighbours are exact. See the [module](self#accuracy).
+///
+/// # Examples
+///
+/// The sites of an octahedron: the zenith keeps its cell, those on the horizon half of theirs, the nadir nothing.
+/// ```
+/// use std::f64::consts::PI;
+/// use steradian::{glam::DVec3, voronoi};
+///
+/// let sites = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
+/// let dome = voronoi::hemisphere(&sites, DVec3::Z)?;
+/// for (index, sixths) in [(2, 1.0), (0, 0.5), (5, 0.0)] {
+///     assert!((dome.cell(index).solid_angle() - sixths * 4.0 * PI / 6.0).abs() <= voronoi::SOLID_ANGLE_ERROR);
+/// }
+/// assert!(dome.cell(0).neighbors().contains(&voronoi::HORIZON));
+/// # Ok::<(), voronoi::VoronoiError>(())
+/// ```
 pub fn hemisphere(sites: &[DVec3], pole: DVec3) -> Result<Diagram, VoronoiError> {
     let mut builder = Builder::new();
     builder.hemisphere(sites, pole)?;

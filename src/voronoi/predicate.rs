@@ -133,3 +133,59 @@ fn bracket<const N: usize>(a: &Vector<N>, b: &Vector<N>, c: &Vector<N>) -> Integ
     let minor = |s: usize, t: usize| b[s].multiply(&c[t]).subtract(&b[t].multiply(&c[s]));
     dot(a, &[minor(1, 2), minor(2, 0), minor(0, 1)])
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+
+    /// Directions with components −2 … 2, whose determinants are often zero and never tiny.
+    fn rays() -> Vec<Ray> {
+        let part = |k: i32, by: i32| f64::from(k / by % 5 - 2);
+        (0..125).step_by(7).map(|k| DVec3::new(part(k, 1), part(k, 5), part(k, 25))).map(Ray::new).collect()
+    }
+
+    #[test]
+    fn integers_agree_with_twofold_numbers_for_every_mix_of_planes() {
+        use Plane::{Bisector, Normal};
+        let rays = rays();
+        let mut zeros = 0;
+        for (i, site) in rays.iter().enumerate() {
+            for shift in [1, 4, 7] {
+                let at = |by: usize| &rays[(i + by * shift) % rays.len()];
+                let (j, k, l) = (at(1), at(2), at(3));
+                if [j, k, l].iter().any(|ray| ray.is_along(site)) {
+                    continue;
+                }
+                let mixes = [
+                    [Bisector(j), Bisector(k), Bisector(l)],
+                    [Bisector(j), Bisector(k), Normal(l)],
+                    [Bisector(j), Normal(k), Bisector(l)],
+                    [Normal(j), Bisector(k), Bisector(l)],
+                    [Bisector(j), Normal(k), Normal(l)],
+                    [Normal(j), Bisector(k), Normal(l)],
+                    [Normal(j), Normal(k), Bisector(l)],
+                    [Normal(j), Normal(k), Normal(l)],
+                ];
+                for [a, b, c] in mixes {
+                    let estimate = a.twofold(site).cross(b.twofold(site)).dot(c.twofold(site)).hi;
+                    let want = if estimate.abs() < TWOFOLD_BOUND { 0 } else { estimate.signum() as i32 };
+                    zeros += usize::from(want == 0);
+                    assert_eq!(exact_orientation(site, a, b, c), want, "{estimate} of {a:?} {b:?} {c:?} from {site:?}");
+                }
+            }
+        }
+        assert!(zeros > 10, "the test must meet zeros, and met {zeros}");
+    }
+
+    #[test]
+    fn only_integers_can_tell_a_circle_from_one_that_misses_by_a_subnormal() {
+        let [a, b, c] = [DVec3::X, DVec3::Y, DVec3::NEG_X].map(Ray::new);
+        for (z, want) in [(1e-310, 1), (0.0, 0), (-5e-324, -1)] {
+            let d = Ray::new(DVec3::new(0.0, -1.0, z));
+            let planes = [&b, &c, &d].map(Plane::Bisector);
+            assert_eq!(exact_orientation(&a, planes[0], planes[1], planes[2]).abs(), i32::abs(want));
+        }
+    }
+}

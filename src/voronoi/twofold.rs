@@ -162,3 +162,36 @@ pub(super) fn times_power(v: DVec3, e: i32) -> DVec3 {
 fn power(e: i32) -> f64 {
     if e >= -1022 { f64::from_bits(((e + 1023) as u64) << 52) } else { f64::from_bits(1 << (e + 1074)) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn products_and_determinants_are_exact() {
+        let a = 1.0 + f64::EPSILON;
+        let square = product(a, a);
+        assert_eq!((square.hi, square.lo), (1.0 + 2.0 * f64::EPSILON, f64::EPSILON * f64::EPSILON));
+        // (1 + ε)² − (1 + 2ε) 1 = ε²
+        let difference = determinant(a, a, 1.0 + 2.0 * f64::EPSILON, 1.0);
+        assert_eq!((difference.hi, difference.lo), (f64::EPSILON * f64::EPSILON, 0.0));
+    }
+
+    #[test]
+    fn units_have_length_one_to_twice_the_precision() {
+        for v in [DVec3::new(0.3, 0.7, 0.9), DVec3::new(1e300, -1e299, 1e280), DVec3::new(3e-310, 0.0, -4e-310)] {
+            let u = Twofold3::from_sum(v, DVec3::ZERO).unit();
+            let defect = u.dot(u).add(Twofold { hi: -1.0, lo: 0.0 });
+            assert!(defect.hi.abs() < 1.0 / (1u128 << 100) as f64, "{defect:?}");
+        }
+    }
+
+    #[test]
+    fn exponents_of_normal_and_subnormal_doubles() {
+        for (x, e) in [(1.0, 0), (1.99, 0), (-0.5, -1), (5e-324, -1074), (f64::MIN_POSITIVE, -1022), (f64::MAX, 1023)] {
+            assert_eq!(exponent(DVec3::new(0.0, x, 0.0)), e, "{x}");
+            let scaled = times_power(DVec3::splat(x), -e).x.abs();
+            assert!((1.0..2.0).contains(&scaled), "{x} became {scaled}");
+        }
+    }
+}

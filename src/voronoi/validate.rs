@@ -86,6 +86,7 @@ impl Diagram {
     /// Checks what holds for every diagram.
     ///
     /// # Errors
+    ///
     /// The first broken invariant of:
     /// 1. solid angles are finite and not negative, and sum to 4π or 2π within [`ERROR_PER_EDGE`];
     /// 2. vector moments sum to zero or to π times the pole within the same bound;
@@ -115,19 +116,18 @@ impl Diagram {
             Some(pole) => (2.0 * PI, PI * pole),
             None => (4.0 * PI, DVec3::ZERO),
         };
-        // Negated, so that NaN is a defect.
         for (site, &solid_angle) in self.solid_angles().iter().enumerate() {
-            if !(solid_angle >= 0.0 && solid_angle <= 4.0 * PI) {
+            if !(0.0..=4.0 * PI).contains(&solid_angle) {
                 return Err(Defect::SolidAngle { site, solid_angle });
             }
         }
         let sum = compensated_sum(self.solid_angles().iter().copied());
-        if !((sum - whole).abs() <= bound) {
+        if !within(sum - whole, bound) {
             return Err(Defect::SolidAngles { sum });
         }
         let component = |k: usize| compensated_sum(self.vector_moments().iter().map(move |moment| moment[k]));
         let sum = DVec3::new(component(0), component(1), component(2));
-        if !((sum - moment).length() <= bound) {
+        if !within((sum - moment).length(), bound) {
             return Err(Defect::VectorMoments { sum });
         }
         Ok(())
@@ -161,7 +161,7 @@ impl Diagram {
                 };
                 height >= -CORNER_ERROR && (height <= CORNER_ERROR || edge != corner && edge != before)
             });
-            if !right || !((vertex.length_squared() - 1.0).abs() <= CORNER_ERROR) {
+            if !right || !within(vertex.length_squared() - 1.0, CORNER_ERROR) {
                 return Err(Defect::Corner { site, corner });
             }
         }
@@ -181,6 +181,11 @@ impl Diagram {
         }
         Ok(())
     }
+}
+
+/// Whether an error is within its bound; NaN is not.
+fn within(error: f64, bound: f64) -> bool {
+    error.abs() <= bound
 }
 
 /// The sum of `terms` as if in twice the precision (Neumaier 1974).

@@ -1,11 +1,13 @@
 //! Tolerances of the tests of `voronoi`.
 
+use steradian::voronoi::SOLID_ANGLE_ERROR;
+
 /// (function, regime, bound, kind of evidence); `regime` is the name of a case of the oracle, a kind of input, or `*`.
 pub const TABLE: &[(&str, &str, f64, &str)] = &[
     // Absolute error of a solid angle in steradians, whatever the cell.
-    ("solid_angle", "*", 4e-15, "searched: oracle"),
+    ("solid_angle", "*", SOLID_ANGLE_ERROR, "searched: oracle"),
     // Relative error of a cell whose corners are within 1/64 of each other.
-    ("solid_angle", "narrow", 4e-15, "searched: oracle"),
+    ("solid_angle", "narrow", SOLID_ANGLE_ERROR, "searched: oracle"),
     // Most that corners of such a cell are apart.
     ("narrow", "*", 1.0 / 64.0, "definition"),
     // A cell against the polygon of its corners, which are rounded to doubles: absolute, and over its width.
