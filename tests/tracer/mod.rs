@@ -9,26 +9,31 @@
 //! (1) A ray that starts in a closed room meets a surface, and the normal of the hit faces it: `tests/scene_geometry.rs`.
 //! (2) Irradiances agree with closed forms and with the radiosity of the unit cube: `tests/scene_analytic.rs`.
 //! (3) One-bounce pictures agree with an independent path tracer: `tests/scene_reference.rs`.
-//! (4) Only additions, products, quotients and square roots are used: the same bits on every machine.
+//! (4) The first hit is that of a naive loop over triangles: `tests/scene_naive.rs`.
+//! (5) Cameras, rays and direct light take additions, products, quotients and square roots only: the same bits on every machine.
 //!
 //! # Not here
-//! Meshes, textures, file formats, random numbers, the gather and the cache.
+//! Meshes, textures, file formats, and every gather but the brute-force one.
 
 mod analytic;
 pub mod bounds;
 mod camera;
 mod cornell;
 mod corridor;
+mod gather;
 mod light;
 pub mod render;
 mod room;
 mod scene;
 mod solid;
 mod source;
+mod wander;
 
 pub use camera::Camera;
+pub use gather::cosine_stratified;
 pub use light::Light;
 pub use room::Room;
 pub use scene::{Hit, Scene};
 pub use solid::Solid;
 pub use source::SceneSource;
+pub use wander::{random_direction, random_point};

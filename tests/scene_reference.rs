@@ -1,0 +1,80 @@
+//! Law: one-bounce pictures of the scenes have the means that an independent path tracer gives them.
+#![cfg(feature = "ilv")]
+
+mod seeds;
+#[allow(dead_code, unused_imports, reason = "uses a part of the tracer")]
+mod tracer;
+
+use std::f64::consts::PI;
+
+use steradian::glam::{DVec3, dvec3};
+use tracer::{Scene, SceneSource, bounds, cosine_stratified};
+
+/// Mean luminances of a scene: what visible surfaces reflect of the direct light, and of the light reflected once before.
+struct Means {
+    /// Pixels that see a surface that does not emit.
+    pixels: usize,
+    direct: f64,
+    indirect: f64,
+}
+
+/// Means over the 75 × 75 pixels with the centres (8i + 4.5, 8j + 4.5) of a 600 × 600 picture, of those that see a surface
+/// that does not emit: pixels that see the light, or nothing, do not count at all.
+///
+/// # Source
+/// Mitsuba 3.9.1, llvm_ad_rgb (single precision), the same geometry as triangles, rays through the pixel centres only.
+/// Indirect: path integrator with max_depth 3 minus max_depth 2, 32768 independent samples a pixel for each; standard errors
+/// 3, 4 and 6 in the last digit. Direct: max_depth 2.
+const CORNELL: Means = Means { pixels: 5217, direct: 0.034572, indirect: 0.016608 };
+/// As [`CORNELL`].
+const CORNELL_CLOSED: Means = Means { pixels: 5591, direct: 0.051604, indirect: 0.033926 };
+/// As [`CORNELL`].
+const CORRIDOR: Means = Means { pixels: 5625, direct: 0.029792, indirect: 0.032669 };
+
+fn luminance(radiance: DVec3) -> f64 {
+    radiance.dot(dvec3(0.2126, 0.7152, 0.0722))
+}
+
+fn check(scene: &Scene, want: &Means, stream: u64) {
+    let camera = scene.camera();
+    let mut rng = seeds::rng(stream);
+    let (mut pixels, mut direct, mut indirect) = (0, 0.0, 0.0);
+    for pixel in 0..75 * 75 {
+        let centre = |k: usize| 8.0 * k as f64 + 4.5;
+        let (eye, forward) = camera.ray(centre(pixel % 75), centre(pixel / 75), 600, 600);
+        let Some(hit) = scene.intersect(eye, forward).filter(|hit| hit.emission == DVec3::ZERO) else { continue };
+        pixels += 1;
+        direct += luminance(scene.reflected_direct(&hit, 8));
+        let mut source = SceneSource::new(scene, hit.position, 4);
+        let irradiance = cosine_stratified(&mut source, hit.normal, 16, &mut rng);
+        indirect += luminance(hit.reflectance * irradiance) / PI;
+    }
+    assert_eq!(pixels, want.pixels, "{}: pixels that see a surface", scene.name);
+    for (what, sum, want, bound) in [
+        ("direct", direct, want.direct, bounds::REFERENCE_DIRECT),
+        ("indirect", indirect, want.indirect, bounds::REFERENCE_INDIRECT),
+    ] {
+        let (name, got) = (scene.name, sum / pixels as f64);
+        println!("{name} {what}: got {got:.6}, want {want:.6}, ratio {:.5}", got / want);
+        assert!(
+            (got / want - 1.0).abs() <= bound,
+            "{name} {what}: got {got:.6}, want {want:.6}, relative bound {bound}; seed {}",
+            seeds::seed()
+        );
+    }
+}
+
+#[test]
+fn cornell_has_the_means_of_mitsuba() {
+    check(&Scene::cornell(), &CORNELL, 0x50);
+}
+
+#[test]
+fn closed_cornell_has_the_means_of_mitsuba() {
+    check(&Scene::cornell_closed(), &CORNELL_CLOSED, 0x51);
+}
+
+#[test]
+fn corridor_has_the_means_of_mitsuba() {
+    check(&Scene::corridor(), &CORRIDOR, 0x52);
+}
