@@ -86,9 +86,8 @@ proptest! {
 
     #[test]
     fn a_wider_accuracy_answers_wherever_a_narrower_one_does(stream: u64, accuracy in 0.1..0.5_f64) {
-        let rng = seeds::rng(stream);
-        let narrow = random_cache(accuracy, 40, &mut rng.clone());
-        let wide = random_cache(1.3 * accuracy, 40, &mut rng.clone());
+        let narrow = random_cache(accuracy, 40, &mut seeds::rng(stream));
+        let wide = random_cache(1.3 * accuracy, 40, &mut seeds::rng(stream));
         let mut rng = seeds::rng(!stream);
         for _ in 0..200 {
             let (position, normal) = (place(&mut rng), upward(&mut rng));
