@@ -13,6 +13,8 @@ pub enum JobError {
     Picture { path: PathBuf, error: image::ImageError },
     /// A table could not be written.
     Table { path: PathBuf, error: csv::Error },
+    /// The tables could not be printed.
+    Output(io::Error),
     /// The threads could not be started.
     Threads(rayon::ThreadPoolBuildError),
     /// The sampler was refused.
@@ -29,6 +31,7 @@ impl fmt::Display for JobError {
             Self::File { path, error } => write!(f, "cannot use {}: {error}", path.display()),
             Self::Picture { path, error } => write!(f, "cannot write the picture {}: {error}", path.display()),
             Self::Table { path, error } => write!(f, "cannot write the table {}: {error}", path.display()),
+            Self::Output(error) => write!(f, "cannot print: {error}"),
             Self::Threads(error) => write!(f, "cannot start the threads: {error}"),
             Self::Sampler(error) => write!(f, "{error}"),
             Self::Validity(error) => write!(f, "{error}"),
@@ -38,6 +41,12 @@ impl fmt::Display for JobError {
 }
 
 impl std::error::Error for JobError {}
+
+impl From<io::Error> for JobError {
+    fn from(error: io::Error) -> Self {
+        Self::Output(error)
+    }
+}
 
 impl From<SamplerError> for JobError {
     fn from(error: SamplerError) -> Self {

@@ -3,7 +3,11 @@
 //! Renders each scene by each method, prints one table per scene, and writes pictures, error maps, one contact sheet per
 //! scene and the table as CSV into the folder that `--out` names. See `--help`.
 
-use std::{fs, process::ExitCode};
+use std::{
+    fs,
+    io::{self, Write},
+    process::ExitCode,
+};
 
 use clap::Parser;
 use cpu_time::ProcessTime;
@@ -44,6 +48,8 @@ const REFERENCES: &str = "target/light_vectors/references";
 fn main() -> ExitCode {
     match run(&Options::parse()) {
         Ok(()) => ExitCode::SUCCESS,
+        // Whoever reads the output has seen enough.
+        Err(JobError::Output(error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error}");
             ExitCode::FAILURE
@@ -64,17 +70,12 @@ fn run(options: &Options) -> Result<(), JobError> {
     let mut rows = Vec::new();
     for &name in &options.scene {
         let of_scene = pool.install(|| compare(name, options))?;
-        let vectors = options.size * options.size;
-        println!(
-            "{}, {size} x {size} pixels ({vectors}), one indirect bounce",
-            scene_of(name).name,
-            size = options.size
-        );
-        println!("{}", table::text(&of_scene));
+        let (scene, size) = (scene_of(name).name, options.size);
+        writeln!(io::stdout(), "{scene}, {size} x {size} pixels, one indirect bounce\n{}", table::text(&of_scene))?;
         rows.extend(of_scene);
     }
     table::write(&rows, &options.out.join("table.csv"))?;
-    println!("pictures and table.csv are in {}", options.out.display());
+    writeln!(io::stdout(), "pictures and table.csv are in {}", options.out.display())?;
     Ok(())
 }
 
