@@ -102,6 +102,13 @@ fn vector_error(got: DVec3, want: &[String; 3]) -> f64 {
 }
 
 #[test]
+fn documented_bounds_are_the_tested_ones() {
+    assert_eq!(bound("polygon", "*"), solid_angle::ANGLE_BOUND);
+    assert_eq!(bound("signed_polygon", "*"), solid_angle::ANGLE_BOUND);
+    assert_eq!(bound("vector_moment", "*"), solid_angle::MOMENT_BOUND);
+}
+
+#[test]
 fn every_moment_is_within_its_bound() {
     let mut tally = Tally::default();
     let mut moments = more().moments;

@@ -28,7 +28,7 @@ const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;
 pub(super) fn argument(re: Double, im: Double) -> Double {
     reflected(re, im, |d| {
         let s = d.hi * d.hi;
-        let series = -1.0 / 3.0 + s * (1.0 / 5.0 + s * (-1.0 / 7.0 + s * (1.0 / 9.0 - s * (1.0 / 11.0))));
+        let series = -1.0 / 3.0 + s * (1.0 / 5.0 + s * (-1.0 / 7.0 + s * (1.0 / 9.0)));
         Double { hi: d.hi, lo: d.lo + s * d.hi * series }
     })
 }

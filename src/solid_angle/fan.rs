@@ -255,3 +255,15 @@ fn lune(apex: [f64; 3], apex_excess: f64, p: [f64; 3], q: [f64; 3]) -> Factor {
     let det = exact::determinant(apex, p, q);
     Factor { re, im: det + det * apex_excess }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::excess;
+
+    #[test]
+    fn excess_of_a_norm_is_exact_to_second_order() {
+        let beyond = 2_f64.powi(-42);
+        assert_eq!(excess([0.0, 1.0 + beyond, 0.0]), beyond);
+        assert_eq!(excess([0.0, 0.0, beyond - 1.0]), -beyond);
+    }
+}
