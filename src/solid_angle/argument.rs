@@ -28,7 +28,7 @@ const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;
 pub(super) fn argument(re: Double, im: Double) -> Double {
     reflected(re, im, |d| {
         let s = d.hi * d.hi;
-        let series = -1.0 / 3.0 + s * (1.0 / 5.0 + s * (-1.0 / 7.0 + s * (1.0 / 9.0 - s * (1.0 / 11.0))));
+        let series = -1.0 / 3.0 + s * (1.0 / 5.0 + s * (-1.0 / 7.0 + s * (1.0 / 9.0)));
         Double { hi: d.hi, lo: d.lo + s * d.hi * series }
     })
 }
@@ -79,6 +79,7 @@ fn first_octant(x: Double, y: Double, arctangent: impl Fn(Double) -> Double) -> 
 
 /// atan(k/64) for k = 0 … 64, each as a double and what is left of it.
 #[rustfmt::skip]
+#[allow(clippy::approx_constant, reason = "a table of arctangents holds π/4")]
 const ARCTANGENTS: [(f64, f64); 65] = [
     (0.0, 0.0),
     (0.015_623_728_620_476_831, -4.913_600_136_566_304e-19),

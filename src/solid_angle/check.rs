@@ -94,7 +94,7 @@ mod tests {
 
     #[test]
     fn a_triangle_with_a_whisker_keeps_its_corners() {
-        for spiked in [[A, B, C, B, C], [C, A, B, C, B], [B, C, A, B, C]] {
+        for spiked in [[A, B, C, B, C], [C, A, B, C, B], [B, C, A, B, C], [A, B, C, -A, B], [B, C, -A, B, A]] {
             assert!(has_whiskers(&spiked));
             assert_eq!(prune(&spiked).len(), 3, "{spiked:?} leaves {:?}", prune(&spiked));
         }

@@ -132,7 +132,7 @@ pub(super) fn antipodal(a: [f64; 3], b: [f64; 3]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{antipodal, determinant, norm_error, same_direction};
+    use super::{Expansion, antipodal, determinant, norm_error, parallel, same_direction};
 
     #[test]
     fn determinant_sees_the_last_bit_of_the_last_product() {
@@ -144,6 +144,23 @@ mod tests {
     #[test]
     fn norm_error_of_a_third_is_exact() {
         assert_eq!(norm_error([0.5, 0.5, 0.5]).value(), -0.25);
+    }
+
+    #[test]
+    fn head_and_tail_survive_terms_that_nearly_cancel() {
+        let half_ulp = 0.5 * f64::EPSILON;
+        let small = half_ulp * half_ulp * half_ulp;
+        let mut terms = [0.0; 24];
+        terms[..4].copy_from_slice(&[small, -0.5 * half_ulp * (1.0 - f64::EPSILON), half_ulp - 1.0, 1.0]);
+        let sum = Expansion { terms, len: 4 }.round();
+        assert_eq!((sum.hi, sum.lo), (0.5 * half_ulp * (1.0 + f64::EPSILON), small));
+    }
+
+    #[test]
+    fn parallelism_is_decided_by_the_last_bit() {
+        let tiny = f64::EPSILON;
+        assert!(!parallel([1.0 + tiny, 1.0, 0.0], [1.0, 1.0 - tiny, 0.0]));
+        assert!(parallel([0.3, 0.6, 1.2], [0.6, 1.2, 2.4]));
     }
 
     #[test]

@@ -26,6 +26,9 @@
 //! - a vertex exactly antipodal to v₀ makes both of its triangles 0/0; together they are a lune, whose half area is the
 //!   difference of two azimuths around v₀.
 //!
+//! Triangles of both signs may cancel: the error is a few u² of the sum of their absolute areas. What is below 2⁻⁹⁸ of
+//! that sum has no reliable sign, and is taken for exactly nothing.
+//!
 //! # Source
 //!
 //! Van Oosterom and Strackee, "The solid angle of a plane triangle", 1983, eq. 8; Eriksson, "On the measure of solid
@@ -45,6 +48,9 @@ const NUMERATOR_FLOOR: f64 = 1.0 / (1_u64 << 42) as f64;
 
 /// Below this magnitude of a factor some edge is nearly a half turn: 2⁻¹⁶.
 const FACTOR_FLOOR: f64 = 1.0 / (1_u64 << 16) as f64;
+
+/// What is left of parts that cancel, relative to the parts, is noise below this: 2⁻⁹⁸.
+const NOISE: f64 = 1.0 / ((1_u64 << 49) as f64 * (1_u64 << 49) as f64);
 
 /// 4π − `4.0 * PI`.
 const FOUR_PI_LOW: f64 = 4.898_587_196_589_413e-16;
@@ -93,6 +99,7 @@ pub(super) fn half_angle(vertices: &[DVec3]) -> HalfAngle {
     let apex = apex.to_array();
     let apex_excess = excess(apex);
     let mut product: Option<Factor> = None;
+    let mut swept = 0.0;
     let mut b = Spoke::new(apex, first.to_array());
     let mut rest = rest.iter();
     while let Some(c) = rest.next() {
@@ -106,10 +113,15 @@ pub(super) fn half_angle(vertices: &[DVec3]) -> HalfAngle {
             let c = Spoke::new(apex, c);
             (triangle(apex, apex_excess, &b, &c), c)
         };
+        swept += factor.slope();
         product = Some(product.map_or(factor, |product| product.times(factor)));
         b = spoke;
     }
-    HalfAngle(product.map_or(Double::default(), |product| argument(product.re, product.im)))
+    let Some(Factor { re, mut im }) = product else { return HalfAngle(Double::default()) };
+    if im.hi.abs() <= NOISE * swept * (re.hi.abs() + im.hi.abs()) {
+        im = Double::default();
+    }
+    HalfAngle(argument(re, im))
 }
 
 /// |v| − 1 of a near-unit vector, from its compensated norm; the third power of the deviation is below 2⁻¹²².
@@ -131,6 +143,13 @@ impl Spoke {
 }
 
 impl Factor {
+    /// |sin| of the argument within a factor of √2: what this triangle adds to the area that cancels.
+    #[inline(always)]
+    fn slope(&self) -> f64 {
+        let im = self.im.hi.abs();
+        if im > 0.0 { im / (self.re.hi.abs() + im) } else { 0.0 }
+    }
+
     /// The product, scaled by a power of two where it would leave the middle of the range.
     #[inline(always)]
     fn times(self, other: Self) -> Self {
@@ -235,4 +254,16 @@ fn lune(apex: [f64; 3], apex_excess: f64, p: [f64; 3], q: [f64; 3]) -> Factor {
     let re = u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
     let det = exact::determinant(apex, p, q);
     Factor { re, im: det + det * apex_excess }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::excess;
+
+    #[test]
+    fn excess_of_a_norm_is_exact_to_second_order() {
+        let beyond = 2_f64.powi(-42);
+        assert_eq!(excess([0.0, 1.0 + beyond, 0.0]), beyond);
+        assert_eq!(excess([0.0, 0.0, beyond - 1.0]), -beyond);
+    }
 }

@@ -14,7 +14,7 @@ use core::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::moment::{SHORT_COSINE, bulge_of_short_edge};
+use super::moment::{SHORT_COSINE, bulge_of_edge};
 use crate::float;
 
 /// Relative error of the solid angle of a well-shaped triangle, quadrilateral or hexagon, searched: 12 · 2⁻⁵³.
@@ -85,7 +85,7 @@ pub fn vector_moment(vertices: &[DVec3]) -> DVec3 {
         let normal = a.cross(if cosine < 0.0 { a + b } else { b - a });
         if cosine > SHORT_COSINE {
             let square = normal.length_squared();
-            sum += normal * (1.0 + bulge_of_short_edge(0.5 * square / (1.0 + cosine)));
+            sum += normal * (1.0 + bulge_of_edge::<12>(0.5 * square / (1.0 + cosine)));
         } else {
             let sine = normal.length();
             if sine > 0.0 {

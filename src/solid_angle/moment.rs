@@ -15,8 +15,8 @@
 //!
 //! # Accuracy
 //!
-//! With E = ½ Σ wₑ, wₑ = |θₑ − sin θₑ| for edges up to 0.377 rad and θₑ for longer ones, the `f64` of the second sum costs
-//! a few u E. Where E exceeds 2 |M| (needles, slivers, long thin bands) the second sum is repeated in double length.
+//! With E = ½ Σ wₑ, wₑ = |θₑ − sin θₑ| for edges up to 0.927 rad and θₑ for longer ones, the `f64` of the second sum costs
+//! a few u E. Where E exceeds 4 |M| (needles, slivers, long thin bands) the second sum is repeated in double length.
 //!
 //! # Source
 //!
@@ -31,10 +31,13 @@ use super::fan::{deficit, excess};
 use crate::float;
 
 /// How many times the moment E may be before the second sum is repeated in double length.
-const CANCELLATION: f64 = 2.0;
+const CANCELLATION: f64 = 4.0;
 
-/// Edges with a larger cosine are short: below 0.377 rad.
+/// Edges with a larger cosine are short, below 0.377 rad: 12 powers of at most 0.035 are enough.
 pub(super) const SHORT_COSINE: f64 = 0.93;
+
+/// Edges with a larger cosine are below 0.927 rad: 24 powers of at most 0.2 are enough.
+const MIDDLE_COSINE: f64 = 0.6;
 
 /// Sums of unit vectors shorter than this belong to an edge that is nearly a half turn: 2⁻²⁰.
 const NEAR_ANTIPODAL: f64 = 1.0 / (1_u64 << 20) as f64;
@@ -58,17 +61,15 @@ pub(super) fn vector_moment(vertices: &[DVec3]) -> DVec3 {
     for &vertex in vertices[1..].iter().chain([&apex.v]) {
         let next = Corner::new(vertex);
         let next_offset = offset_from(apex, next);
-        flat = plus(flat, cross(&offset, &next_offset));
+        accumulate(&mut flat, cross(&offset, &next_offset));
         let (rise, weight) = arc(corner, next);
-        bulge = plus(bulge, rise.to_array().map(Double::from));
+        accumulate(&mut bulge, rise.to_array().map(Double::from));
         doubt += weight;
         (corner, offset) = (next, next_offset);
     }
-    let twice = plus(flat, bulge).map(Double::value);
-    if doubt <= CANCELLATION * DVec3::from_array(twice).length() {
-        return 0.5 * DVec3::from_array(twice);
-    }
-    0.5 * DVec3::from_array(plus(flat, long_bulge(vertices)).map(Double::value))
+    let twice = |bulge: [Double; 3]| DVec3::from_array([0, 1, 2].map(|i| (flat[i] + bulge[i]).value()));
+    let moment = twice(bulge);
+    0.5 * if doubt <= CANCELLATION * moment.length() { moment } else { twice(long_bulge(vertices)) }
 }
 
 impl Corner {
@@ -77,8 +78,13 @@ impl Corner {
     }
 }
 
-fn plus(a: [Double; 3], b: [Double; 3]) -> [Double; 3] {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+/// Adds `term` to a sum whose low part is not normalised, within u² of the partial sums.
+#[inline(always)]
+fn accumulate(sum: &mut [Double; 3], term: [Double; 3]) {
+    for (sum, term) in sum.iter_mut().zip(term) {
+        let s = Double::sum(sum.hi, term.hi);
+        *sum = Double { hi: s.hi, lo: sum.lo + (s.lo + term.lo) };
+    }
 }
 
 /// v/|v| − a/|a|.
@@ -88,8 +94,8 @@ fn offset_from(a: Corner, v: Corner) -> [Double; 3] {
     let deficit = |corner: Corner| corner.excess * (corner.excess - 1.0);
     let (p, q) = (deficit(a), deficit(v));
     [0, 1, 2].map(|i| {
-        let correction = Double::product(q, v.v[i]) - Double::product(p, a.v[i]);
-        Double::difference(v.v[i], a.v[i]) + correction
+        let difference = Double::difference(v.v[i], a.v[i]);
+        Double::sum(difference.hi, difference.lo + (q * v.v[i] - p * a.v[i]))
     })
 }
 
@@ -111,10 +117,10 @@ fn arc(a: Corner, b: Corner) -> (DVec3, f64) {
     };
     let length = normal.length();
     let sine = length * norms;
-    if cosine > SHORT_COSINE {
+    if cosine > MIDDLE_COSINE {
         let half = 0.5 * sine * sine / (1.0 + cosine); // sin² θ/2
-        let rise = normal * (norms * bulge_of_short_edge(half));
-        (rise, rise.length())
+        let bulge = if cosine > SHORT_COSINE { bulge_of_edge::<12>(half) } else { bulge_of_edge::<24>(half) };
+        (normal * (norms * bulge), length * bulge)
     } else if length > 0.0 {
         let angle = float::atan2(sine, cosine);
         (normal * ((angle - sine) / length), angle)
@@ -123,23 +129,9 @@ fn arc(a: Corner, b: Corner) -> (DVec3, f64) {
     }
 }
 
-/// θ/sin θ − 1 from h = sin² θ/2 <= 0.035: Σ h^k Π 2j/(2j + 1), j from 1 to k.
-pub(super) fn bulge_of_short_edge(h: f64) -> f64 {
-    const RATIOS: [f64; 12] = [
-        24.0 / 25.0,
-        22.0 / 23.0,
-        20.0 / 21.0,
-        18.0 / 19.0,
-        16.0 / 17.0,
-        14.0 / 15.0,
-        12.0 / 13.0,
-        10.0 / 11.0,
-        8.0 / 9.0,
-        6.0 / 7.0,
-        4.0 / 5.0,
-        2.0 / 3.0,
-    ];
-    RATIOS.iter().fold(0.0, |sum, ratio| (1.0 + sum) * (ratio * h))
+/// θ/sin θ − 1 from h = sin² θ/2: Σ h^k Π 2j/(2j + 1), j from 1 to k, cut after `TERMS` powers.
+pub(super) fn bulge_of_edge<const TERMS: usize>(h: f64) -> f64 {
+    (1..=TERMS).rev().map(|j| (2 * j) as f64 / (2 * j + 1) as f64).fold(0.0, |sum, ratio| (1.0 + sum) * (ratio * h))
 }
 
 /// Σ n̂ₑ (θₑ − sin θₑ) in double length.
@@ -156,10 +148,10 @@ fn long_bulge(vertices: &[DVec3]) -> [Double; 3] {
         let normal = exact::cross(a, b);
         let length = (normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]).sqrt();
         if length.hi > 0.0 {
-            let angle = super::argument::long_argument(dot(a, b), length);
+            let angle = super::argument::long_argument(dot(a, b) + Double::default(), length);
             let sine = length + length * (deficit_a + deficit_b + deficit_a * deficit_b);
             let factor = (angle - sine) / length;
-            sum = plus(sum, normal.map(|x| x * factor));
+            accumulate(&mut sum, normal.map(|x| x * factor));
         }
         (a, deficit_a) = (b, deficit_b);
     }
@@ -168,16 +160,18 @@ fn long_bulge(vertices: &[DVec3]) -> [Double; 3] {
 
 #[cfg(test)]
 mod tests {
-    use super::bulge_of_short_edge;
+    use super::bulge_of_edge;
     use crate::float;
 
     #[test]
-    fn short_edges_bulge_as_their_angle_says() {
-        for angle in [0.37_f64, 0.1, 1e-2] {
+    fn edges_bulge_as_their_angle_says() {
+        for angle in [0.92_f64, 0.37, 0.1, 1e-2] {
             let half = float::sin(0.5 * angle);
             let want = angle / float::sin(angle) - 1.0;
-            let got = bulge_of_short_edge(half * half);
+            let got = bulge_of_edge::<24>(half * half);
             assert!((got - want).abs() <= 2.0 * f64::EPSILON, "θ {angle}: {got} against {want}");
         }
+        let h = 0.035;
+        assert!((bulge_of_edge::<12>(h) - bulge_of_edge::<24>(h)).abs() <= f64::EPSILON * h);
     }
 }

@@ -36,7 +36,7 @@ pub fn ulps(got: f64, want: &str) -> f64 {
     if got == nearest && nearest == 0.0 {
         return 0.0;
     }
-    difference(got, want) / (nearest.abs().next_up() - nearest.abs())
+    difference(got, want) / (f64::from_bits(nearest.abs().to_bits() + 1) - nearest.abs())
 }
 
 /// |got − want|, without the rounding of either.
