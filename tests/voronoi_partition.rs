@@ -37,7 +37,7 @@ fn check_sums(sites: &[DVec3], pole: DVec3) {
 }
 
 proptest! {
-    #![proptest_config(seeds::config(300))]
+    #![proptest_config(seeds::config(100))]
 
     #[test]
     fn cells_partition(kind in sites::kind(), n in 1..200usize, seed: u64) {
