@@ -61,7 +61,7 @@ fn measures(diagram: &Diagram, index: usize) -> (f64, DVec3) {
 }
 
 proptest! {
-    #![proptest_config(seeds::config(200))]
+    #![proptest_config(seeds::config(100))]
 
     #[test]
     fn sites_and_queries_are_in_the_cell_of_the_nearest_site(kind in sites::kind(), n in 1..100usize, seed: u64) {

@@ -19,6 +19,9 @@ use super::{HORIZON, twofold::Twofold3};
 /// Corners whose sine is below this have no trusted double for `reach`.
 const SMALLEST_SINE: f64 = 1.0 / 1024.0;
 
+/// From π/2 to below 2⁻⁵³.
+const BISECTIONS: usize = 54;
+
 /// Slack of `reach`: corners are right to 16 u / `SMALLEST_SINE` < 2⁻³⁸, and cos 2ρ changes by at most four times that.
 const REACH_SLACK: f64 = 1.0 / (1u64 << 35) as f64;
 
@@ -50,7 +53,7 @@ impl<'a> View<'a> {
         orientation(self.site, self.plane(a), self.plane(b), self.plane(c))
     }
 
-    /// The corner at the start of `edge`, as a unit vector to more than double precision or zero.
+    /// The corner at the start of `edge`, to more than double precision, with the sine as its length.
     ///
     /// For bisectors of the site i with j and k, u_i − u_k may be replaced by u_j − u_k, which makes a better angle when
     /// j and k are close to each other.
@@ -65,6 +68,29 @@ impl<'a> View<'a> {
             }
         }
         corner
+    }
+
+    /// The corner of planes that are almost the same one, as a unit vector: by bisection, with exact sides.
+    ///
+    /// For vectors s, t of the plane, both unit and at most a right angle from the corner, on either side of it, the
+    /// side of their middle turned by a right angle towards t tells in which half of the angle the corner is.
+    pub fn corner_by_sides(&self, before: u32, at: u32) -> DVec3 {
+        let (a, b) = (self.plane(before), self.plane(at));
+        let side = |v: DVec3| orientation(self.site, a, b, Plane::Normal(&Ray::new(v)));
+        let normal = b.twofold(self.site).hi();
+        let (s, t) = normal.any_orthonormal_pair();
+        let towards = |v: DVec3| if side(v) < 0 { -v } else { v };
+        let (mut s, mut t) = (towards(s), towards(t));
+        let up = if s.cross(t).dot(normal) < 0.0 { -normal } else { normal };
+        for _ in 0..BISECTIONS {
+            let middle = (s + t).normalize();
+            if side(up.cross(middle)) < 0 {
+                t = middle;
+            } else {
+                s = middle;
+            }
+        }
+        (s + t).normalize()
     }
 
     /// The second way of `sharp_corner` in doubles; zero if there is none.

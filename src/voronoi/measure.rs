@@ -27,6 +27,9 @@ pub const SOLID_ANGLE_ERROR: f64 = 4e-15;
 /// Corners of smaller sine than this, and corners of cells narrower than `NARROW`, are computed in twofold numbers.
 const SHARP: f64 = 0.25;
 
+/// Corners of smaller sine than this are uncertain by 2⁻⁵⁰ even in twofold numbers of 2⁻⁹⁵.
+const BLUNT: f64 = 1.0 / (1u64 << 45) as f64;
+
 /// A cell narrower than this needs more than doubles in the differences of its corners.
 const NARROW: f64 = 1.0 / 64.0;
 
@@ -96,12 +99,8 @@ fn double_corner(view: &View<'_>, before: u32, edge: &Edge) -> Option<Corner> {
 
 fn twofold_corner(view: &View<'_>, before: u32, at: u32) -> Corner {
     let corner = view.sharp_corner(before, at);
-    if corner.hi() == DVec3::ZERO {
-        // Planes that are one and the same to 2⁻⁹⁶: any direction in it is on both.
-        let normal = view.plane(at).twofold(view.site).hi();
-        let in_plane = view.site.unit.reject_from_normalized(normal);
-        let unit = in_plane.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
-        return Corner { unit, rest: DVec3::ZERO };
+    if corner.hi().length_squared() < BLUNT * BLUNT {
+        return Corner { unit: view.corner_by_sides(before, at), rest: DVec3::ZERO };
     }
     let unit = corner.unit();
     Corner { unit: unit.hi(), rest: unit.lo() }

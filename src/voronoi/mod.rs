@@ -31,18 +31,21 @@
 //!
 //! # Accuracy
 //!
-//! The error of a solid angle or a vector moment is below [`SOLID_ANGLE_ERROR`] (searched: tests/voronoi_oracle.rs, the
-//! worst seen is 1.4·10⁻¹⁵), and for cells narrower than 1/64 below that times the solid angle (the worst seen is
-//! 7·10⁻¹⁶ of it, for cells from 10⁻⁴ down to 10⁻³³ sr). Not guaranteed: cells longer than 60° and thinner than 10⁻³
-//! have the absolute bound only; the corner of three sites that are within 10⁻²⁰ of each other and of a great circle may
-//! be off along that circle's bisector; components below 2⁻¹⁰²² of the largest component of their site are rounded to
-//! multiples of 2⁻¹⁰⁷⁴ of it.
+//! The error of a solid angle or of a component of a vector moment is below [`SOLID_ANGLE_ERROR`] for cells of up to 40
+//! edges (searched: tests/voronoi_oracle.rs, the worst solid angle seen is 1.4·10⁻¹⁵ off; moments against polygons:
+//! tests/voronoi_partition.rs). Cells narrower than 1/64 have their solid angle to the same bound relative (the worst seen
+//! is 7·10⁻¹⁶ of it, for cells from 10⁻⁴ down to 10⁻³³ sr); corners are within [`CORNER_ERROR`] of their edges.
+//!
+//! Not guaranteed: thin cells of more than 60° have the absolute bound only, and so have narrow ones with a corner of three
+//! sites that are on one great circle to 10⁻¹³ of their distances. Components below 2⁻¹⁰²² of the largest component of
+//! their site are rounded to multiples of 2⁻¹⁰⁷⁴ of it.
 //!
 //! # Implementation
 //!
 //! Each cell by itself is cut from the sphere by half-spaces, near sites first, until no site is left that reaches it:
-//! time grows as n² in the end, and as n for hundreds of sites. The decisions of the integers are a thousand times slower
-//! than others; random sites never need them, exact lattices do at every corner.
+//! time grows as n², from about 1 µs a site for some hundreds of sites. Integers decide a hundred to ten thousand times more
+//! slowly than doubles: random sites never need them, lattices and circles do at every corner, and a circle of many sites
+//! takes time as n³.
 //!
 //! # Not here
 //!

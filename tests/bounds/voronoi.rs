@@ -11,8 +11,8 @@ pub const TABLE: &[(&str, &str, f64, &str)] = &[
     // Most that corners of such a cell are apart.
     ("narrow", "*", 1.0 / 64.0, "definition"),
     // A cell against the polygon of its corners, which are rounded to doubles: absolute, and over its width.
-    ("polygon", "solid_angle", 1e-14, "searched: random"),
-    ("polygon", "vector_moment", 1e-14, "searched: random"),
+    ("polygon", "solid_angle", 4e-15, "searched: random"),
+    ("polygon", "vector_moment", 4e-15, "searched: random"),
     // x·(u − v) where u is the nearest site to the query x, or x a point of the cell of u.
     ("nearest", "*", 1e-15, "two roundings of a dot product"),
     // det(a, b, x) for corners a, b of an edge and x in the cell.
