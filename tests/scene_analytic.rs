@@ -59,6 +59,7 @@ fn rectangle_gives_its_closed_forms() {
     assert_eq!(irradiance(dvec3(0.5, 0.0, 1.0), DVec3::NEG_Y), 0.0);
     assert_eq!(irradiance(dvec3(3.0, 0.0, 1.0), DVec3::X), 0.0);
     assert_eq!(irradiance(dvec3(3.0, 1.0, 1.0), DVec3::NEG_X), 0.0);
+    assert_eq!(irradiance(dvec3(0.5, 1.0, 1.0), DVec3::Y), 0.0);
     assert_eq!(irradiance(dvec3(0.5, 1.5, 1.0), DVec3::NEG_Y), 0.0);
 }
 
@@ -148,6 +149,39 @@ fn cube_has_the_irradiances_of_its_radiosity() {
         let got = cosine_stratified(&mut source, normal, 256, &mut rng).x;
         close(got, reflected, bounds::CUBE_ONE_BOUNCE * reflected, &format!("one bounce at {position}"));
         assert_eq!(source.shadow_rays, 0, "nothing stands in the cube");
+    }
+}
+
+#[test]
+fn partly_visible_light_counts_by_its_shares() {
+    for (stream, scene) in [Scene::cornell_closed(), Scene::corridor()].into_iter().enumerate() {
+        let mut rng = seeds::rng(0x44 + stream as u64);
+        let light = scene.light().expect("the scene is lit");
+        let [corner, second, _, last] = light.corners();
+        let (u, v) = (second - corner, last - corner);
+        let facing = u.cross(v).normalize();
+        let mut partly = 0;
+        for _ in 0..seeds::cases(20_000) {
+            let Some(hit) = scene.intersect(random_point(&scene, &mut rng), random_direction(&mut rng)) else {
+                continue;
+            };
+            // Slightly off the surface, so that the surface does not count as an obstacle of `occluded`.
+            let position = hit.position + hit.normal * (bounds::TIE * scene.size);
+            let (mut seen, mut all) = (0.0, 0.0);
+            for (i, j) in [(0.25, 0.25), (0.25, 0.75), (0.75, 0.25), (0.75, 0.75)] {
+                let point = corner + u * i + v * j;
+                let span = point - position;
+                let share = span.dot(hit.normal).max(0.0) * span.dot(facing).abs() / span.length().powi(4);
+                all += share;
+                seen += if scene.occluded(position, point) { 0.0 } else { share };
+            }
+            partly += u32::from(seen > 0.0 && seen < all);
+            let whole = light.unshadowed_irradiance(position, hit.normal) * light.radiance.x;
+            let want = if all > 0.0 { whole * (seen / all) } else { whole };
+            let got = scene.direct_irradiance(position, hit.normal, 2).x;
+            close(got, want, bounds::CLOSED_FORM * light.radiance.x, &format!("{} at {position}", scene.name));
+        }
+        assert!(partly > 100, "{}: only {partly} points saw a part of the light", scene.name);
     }
 }
 

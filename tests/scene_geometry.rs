@@ -69,6 +69,49 @@ fn rays_into_edges_and_corners_do_not_leak() {
 }
 
 #[test]
+fn rays_from_the_edge_of_a_block_do_not_meet_it() {
+    let scene = Scene::cornell_closed();
+    let corners = [(423.0, 247.0), (265.0, 296.0), (314.0, 456.0), (472.0, 406.0)];
+    let corners = corners.map(|(x, z)| dvec3(x, 330.0, z));
+    let middle = corners.iter().sum::<DVec3>() / 4.0;
+    let mut rng = seeds::rng(0x21);
+    for case in 0..seeds::cases(100_000) as usize {
+        let (from, to) = (corners[case % 4], corners[(case + 1) % 4]);
+        // Off the edge by rounding, or by much more than rounding.
+        let error = random_direction(&mut rng) * scene.size * [1e-16, 1e-13, 1e-10][case % 3];
+        let origin = from.lerp(to, rng.random()) + error;
+        let outward = (to - from).cross(DVec3::Y).normalize();
+        let side = if outward.dot(middle - from) < 0.0 { outward } else { -outward };
+        let mut direction = random_direction(&mut rng);
+        let normal = if rng.random() { DVec3::Y } else { side };
+        if direction.dot(normal) < 0.0 {
+            direction = -direction;
+        }
+        let hit = scene.intersect(origin, direction).expect("closed");
+        assert!(hit.distance > 1.0, "{origin} along {direction}, leaving {normal}: {hit:?}");
+    }
+}
+
+#[test]
+fn points_just_behind_a_wall_count_as_inside() {
+    let scene = Scene::cube();
+    let mut rng = seeds::rng(0x22);
+    for case in 0..seeds::cases(10_000) as usize {
+        let mut origin = DVec3::from_array(std::array::from_fn(|_| rng.random()));
+        let behind = 0.9 * Scene::SLACK * scene.size;
+        origin[case % 3] = if rng.random() { -behind } else { 1.0 + behind };
+        let direction = random_direction(&mut rng);
+        let hit = scene.intersect(origin, direction).expect("closed");
+        assert!(hit.distance >= 0.0, "{origin} along {direction}: {hit:?}");
+        let [x, y, z] = hit.position.to_array();
+        assert!(
+            [x, y, z].iter().any(|&c| c == 0.0 || c == 1.0),
+            "{origin} along {direction}: {hit:?} is not on a wall"
+        );
+    }
+}
+
+#[test]
 fn rays_along_axes_and_in_walls_end() {
     let scene = Scene::cube();
     let origins = [dvec3(0.5, 0.25, 0.5), dvec3(0.0, 0.25, 0.5), dvec3(0.0, 0.0, 0.5), DVec3::ZERO];
@@ -164,17 +207,17 @@ fn open_box_lets_rays_out() {
 #[test]
 fn source_counts_its_rays() {
     let scene = Scene::cornell_closed();
-    // Up from the tall block: the light and the ceiling; down beside the short block: the floor in its shade.
     let mut source = SceneSource::new(&scene, dvec3(278.0, 400.0, 280.0), 3);
-    assert_eq!(source.sample(DVec3::Y).radiance, DVec3::ZERO);
+    assert_eq!(source.sample(DVec3::Y).radiance, DVec3::ZERO, "the light reflects nothing");
     assert_eq!((source.rays, source.shadow_rays), (1, 0));
-    let mut lit = source.sample(DVec3::NEG_Y);
-    assert!(lit.radiance.min_element() > 0.0 && lit.distance > 0.0, "{lit:?}");
-    assert_eq!(source.rays, 2);
+    // The red wall, above the planes of both tops: nothing can hide the light, so nothing is tested.
+    let red = source.sample(DVec3::X);
+    assert!(red.radiance.x > 5.0 * red.radiance.y && red.radiance.y > 0.0, "{red:?}");
+    assert_eq!((red.distance, source.rays, source.shadow_rays), (278.0, 2, 0));
+    // The floor beside the short block.
     let mut source = SceneSource::new(&scene, dvec3(40.0, 100.0, 300.0), 3);
-    lit = source.sample(DVec3::NEG_Y);
+    assert_eq!(source.sample(DVec3::NEG_Y).distance, 100.0);
     assert_eq!((source.rays, source.shadow_rays), (1, 9));
-    assert_eq!(lit.distance, 100.0);
 }
 
 #[test]

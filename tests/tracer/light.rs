@@ -168,8 +168,27 @@ const SERIES: [f64; 11] = {
 
 #[cfg(test)]
 mod tests {
-    use super::super::bounds::ANGLE_OVER_SINE;
-    use super::angle_over_sine;
+    use steradian::glam::{DVec3, dvec3};
+
+    use super::super::bounds::{ANGLE_OVER_SINE, ROUNDING};
+    use super::{Light, angle_over_sine};
+
+    #[test]
+    fn light_shines_along_its_normal_whichever_it_is() {
+        // A unit square seen from the distance 1 over its middle: E = 4/√5 · atan(1/√5).
+        let ratio = 0.2_f64.sqrt();
+        let want = 4.0 * ratio * ratio.atan();
+        for axis in 0..3 {
+            let (normal, mut high) = (DVec3::AXES[axis], dvec3(1.0, 1.0, 1.0));
+            high[axis] = 0.0;
+            for normal in [normal, -normal] {
+                let light = Light::new(DVec3::ZERO, high, normal, DVec3::ONE);
+                let [front, back] = [normal, -normal].map(|from| light.unshadowed_irradiance(high * 0.5 + from, -from));
+                assert!((front - want).abs() <= ROUNDING, "{normal}: got {front}, want {want}");
+                assert_eq!(back, 0.0, "{normal}");
+            }
+        }
+    }
 
     #[test]
     fn angle_over_sine_is_that_of_the_standard_library() {

@@ -69,8 +69,7 @@ impl Room {
     #[inline]
     pub fn wall(&self, origin: DVec3, direction: DVec3, (distance, face): (f64, usize)) -> Option<Wall> {
         let reflectance = self.faces[face]?;
-        let [low, high] = self.corners;
-        let mut position = (origin + direction * distance).clamp(low, high);
+        let mut position = origin + direction * distance;
         position[face / 2] = self.corners[face % 2][face / 2];
         let normal = DVec3::AXES[face / 2] * if face % 2 == 0 { 1.0 } else { -1.0 };
         Some(Wall { distance, position, normal, reflectance })

@@ -11,7 +11,7 @@ use super::{Camera, Light, Room, Solid};
 /// # Self-intersection
 /// No offset is ever added to a point. A ray that leaves a wall cannot meet that wall again, because walls are seen from
 /// inside only; and a ray that leaves a face of a solid cannot enter it, even if rounding put the point inside by up to
-/// [`Scene::SLACK`] times the size of the scene. Hits are moved onto the plane they belong to.
+/// [`Scene::SLACK`] times the size of the scene, near its edges included. A point that far behind a wall counts as inside.
 #[derive(Clone, Debug)]
 pub struct Scene {
     pub name: &'static str,
@@ -119,8 +119,9 @@ impl Scene {
         }
         let emission = self.exitance * FRAC_1_PI;
         if let Some((solid, face)) = entered {
-            let (normal, position) = solid.land(origin + direction * nearest, face);
-            return Some(Hit { distance: nearest, position, normal, reflectance: solid.reflectance, emission });
+            let position = origin + direction * nearest;
+            let (normal, reflectance) = (solid.normal(face), solid.reflectance);
+            return Some(Hit { distance: nearest, position, normal, reflectance, emission });
         }
         let wall = self.room.wall(origin, direction, exit)?;
         Some(Hit {

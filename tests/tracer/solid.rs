@@ -83,11 +83,10 @@ impl Solid {
         (face < FACES && enter < leave).then_some((enter, face))
     }
 
-    /// Outward normal of `face`, and `point` moved onto its plane.
+    /// Outward normal of `face`.
     #[inline]
-    pub fn land(&self, point: DVec3, face: usize) -> (DVec3, DVec3) {
-        let normal = DVec3::new(self.x[face], self.y[face], self.z[face]);
-        (normal, point - normal * (normal.dot(point) - self.offset[face]))
+    pub fn normal(&self, face: usize) -> DVec3 {
+        DVec3::new(self.x[face], self.y[face], self.z[face])
     }
 
     /// Whether the segment that starts at a point of these [`Self::heights`] and goes along `span` enters before its end.
