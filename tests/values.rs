@@ -1,0 +1,75 @@
+//! Law: the same input gives the same bits on every machine, thread count and optimisation level.
+//!
+//! The values below are pinned. A change of one of them is a change for users and belongs under `Values` in the changelog.
+
+use rand::SeedableRng;
+use rand_pcg::Pcg64;
+use steradian::{
+    glam::DVec3,
+    ilv::{AdaptiveSampler, Frame, Sample},
+    solid_angle,
+    sprt::{Bernoulli, Bounds, Decision, Sprt},
+    voronoi,
+};
+
+/// Three directions without any symmetry.
+const DIRECTIONS: [DVec3; 3] =
+    [DVec3::new(0.36, 0.48, 0.8), DVec3::new(-0.48, 0.64, 0.6), DVec3::new(-0.6, -0.64, 0.48)];
+
+fn bits(vector: DVec3) -> [u64; 3] {
+    vector.to_array().map(f64::to_bits)
+}
+
+#[test]
+fn solid_angles_are_pinned() {
+    let [a, b, c] = DIRECTIONS;
+    assert_eq!(solid_angle::triangle(a, b, c).unwrap().to_bits(), 0x3feb_1735_55ab_7812);
+    assert_eq!(
+        bits(solid_angle::vector_moment(&[a, b, c]).unwrap()),
+        [0xbfd1_cf32_66fd_c4cd, 0x3fc0_1bab_6ad6_24f5, 0x3fe6_a575_3d85_fad6]
+    );
+}
+
+#[test]
+fn diagrams_are_pinned() {
+    let dome = voronoi::hemisphere(&DIRECTIONS, DVec3::new(0.6, 0.0, 0.8)).unwrap();
+    assert_eq!(
+        dome.solid_angles().iter().map(|a| a.to_bits()).collect::<Vec<_>>(),
+        [0x400c_7bde_96d2_c802, 0x3fed_43ec_611a_ea7a, 0x3ffc_ee39_f2dd_af21]
+    );
+    assert_eq!(bits(dome.vector_moments()[1]), [0xbfd3_8b08_407b_5a23, 0x3fe0_4a5a_4bca_b330, 0x3fe1_bc54_86a5_c2ac]);
+}
+
+#[test]
+fn gathers_are_pinned() {
+    let mut sky = |direction: DVec3| {
+        let window = f64::from(direction.dot(DIRECTIONS[0]) > 0.95);
+        Sample { radiance: DVec3::new(1.0, 0.75, 0.5) * (1.0 + direction.x + 8.0 * window), distance: 2.0 }
+    };
+    for (sampler, rays, pinned) in [
+        (AdaptiveSampler::default(), 210, [0x400d_9f91_9be9_0ba4, 0x3feb_01a2_33a9_6f2f, 0x400b_bad1_8538_6cfe]),
+        (AdaptiveSampler::paper(), 120, [0x400c_769f_294b_bd62, 0x3fe1_a67a_42c5_76de, 0x4007_6662_ca24_4d53]),
+        (
+            AdaptiveSampler::stratified(208).unwrap(),
+            208,
+            [0x400e_f59c_a183_ea74, 0x3fee_0470_1d45_676d, 0x400c_978a_c1ef_a985],
+        ),
+        (
+            AdaptiveSampler::fixed(32, 32).unwrap(),
+            1024,
+            [0x400e_6be8_1e46_f577, 0x3fed_0ac4_e2f4_f81b, 0x400b_c7f3_666f_1cc6],
+        ),
+    ] {
+        let frame = Frame::new(DVec3::new(0.6, 0.0, 0.8)).unwrap();
+        let gather = sampler.gather(frame, &mut sky, &mut Pcg64::seed_from_u64(7)).unwrap();
+        assert_eq!((gather.vector().rays(), bits(gather.vector().vector_irradiance())), (rays, pinned));
+    }
+}
+
+#[test]
+fn decisions_are_pinned() {
+    let test = Sprt::new(Bernoulli::new(0.1, 0.3).unwrap(), Bounds::from_risks(0.05, 0.1).unwrap());
+    // Successes wherever the multiples of the golden section fall below a quarter.
+    let run = test.decide((1..).map(|k| f64::from(k) * 0.618_033_988_749_894_8 % 1.0 < 0.25));
+    assert_eq!((run.decision(), run.samples()), (Some(Decision::RejectH0), 26));
+}
