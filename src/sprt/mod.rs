@@ -1,5 +1,6 @@
 //! Sequential probability ratio tests.
 
+mod approximation;
 mod bernoulli;
 mod bounds;
 mod characteristic;
@@ -11,6 +12,7 @@ mod recursion;
 mod run;
 mod sequential;
 
+pub use approximation::Approximation;
 pub use bernoulli::{Bernoulli, BernoulliError};
 pub use bounds::{Bounds, BoundsError};
 pub use characteristic::{CHARACTERISTIC_WORK, Characteristic, CharacteristicError, LawPoint};

@@ -50,13 +50,27 @@ struct Walk {
     base: u64,
     hit: f64,
     miss: f64,
+    /// What rounding took from the probability of a hit, and of a miss, relative to it: one of them is `1 − p`.
+    hit_lost: f64,
+    miss_lost: f64,
 }
 
 impl Walk {
-    fn new(hit: f64, miss: f64) -> Self {
+    /// A walk whose hits are the successes, of probability `p`, or else the failures.
+    fn new(p: f64, rising: bool) -> Self {
         let mut cells = Vec::with_capacity(64);
         cells.push(1.0);
-        Self { cells, start: 0, base: 0, hit, miss }
+        let q = 1.0 - p;
+        let q_lost = ((1.0 - q) - p) / q;
+        let (hit, miss, hit_lost, miss_lost) = if rising { (p, q, 0.0, q_lost) } else { (q, p, q_lost, 0.0) };
+        Self { cells, start: 0, base: 0, hit, miss, hit_lost, miss_lost }
+    }
+
+    /// The probability of `cell`, at `hits` hits, with what rounding took from the probabilities of its outcomes.
+    #[inline]
+    fn restored(&self, cell: f64, hits: u64, samples: u64) -> f64 {
+        let lost = hits as i64 as f64 * self.hit_lost + (samples - hits) as i64 as f64 * self.miss_lost;
+        cell + cell * lost
     }
 
     fn live(&self) -> &[f64] {
@@ -78,15 +92,16 @@ impl Walk {
 
     /// Takes away the cells of fewer than `accept` hits and those of at least `reject` hits; their sums.
     #[inline]
-    fn absorb(&mut self, accept: u64, reject: u64) -> (f64, f64) {
+    fn absorb(&mut self, accept: u64, reject: u64, samples: u64) -> (f64, f64) {
         let (mut accepted, mut rejected) = (0.0, 0.0);
         while self.base < accept && self.start < self.cells.len() {
-            accepted += self.cells[self.start];
+            accepted += self.restored(self.cells[self.start], self.base, samples);
             self.start += 1;
             self.base += 1;
         }
         while self.start < self.cells.len() && self.base + self.live().len() as u64 > reject {
-            rejected += self.cells.pop().unwrap_or(0.0);
+            let cell = self.cells.pop().unwrap_or(0.0);
+            rejected += self.restored(cell, self.base + self.live().len() as u64, samples);
         }
         if self.start > 64 && self.start > self.live().len() {
             let live = self.start..self.cells.len();
@@ -113,7 +128,7 @@ impl Walk {
 /// The law of `test` under the probability of success `p`, strictly between 0 and 1, within `work` cells.
 pub(super) fn law(test: &Sprt<Bernoulli>, p: f64, work: u64) -> Result<Outcome, CharacteristicError> {
     let rising = test.family().p1() > test.family().p0();
-    let mut walk = if rising { Walk::new(p, 1.0 - p) } else { Walk::new(1.0 - p, p) };
+    let mut walk = Walk::new(p, rising);
     let decision = |hits: u64, samples: u64| {
         let (successes, failures) = if rising { (hits, samples - hits) } else { (samples - hits, hits) };
         test.family().decision(successes, failures, test.bounds())
@@ -144,7 +159,7 @@ pub(super) fn law(test: &Sprt<Bernoulli>, p: f64, work: u64) -> Result<Outcome, 
         while reject_edge <= samples && decision(reject_edge, samples) != Some(Decision::RejectH0) {
             reject_edge += 1;
         }
-        let (accepted, rejected) = walk.absorb(accept_edge, reject_edge);
+        let (accepted, rejected) = walk.absorb(accept_edge, reject_edge, samples);
         if accepted + rejected > 0.0 {
             law.push(LawPoint { samples, accept: accepted, reject: rejected });
             accept += accepted;
