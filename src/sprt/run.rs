@@ -82,7 +82,11 @@ impl<F: Family> Run<F> {
         } else if self.samples >= self.test.limit() {
             self.step = Step::Exhausted;
         } else {
-            self.next_look = self.test.look_after(self.samples);
+            self.next_look = if self.samples == self.next_look {
+                self.test.look_following(self.samples)
+            } else {
+                self.test.look_after(self.samples)
+            };
         }
     }
 

@@ -91,6 +91,12 @@ impl<F> Sprt<F> {
     pub(super) fn look_after(&self, samples: u64) -> u64 {
         self.looks.after(samples).min(self.limit)
     }
+
+    /// The same where `look` is a look of the schedule itself: no division.
+    #[inline]
+    pub(super) fn look_following(&self, look: u64) -> u64 {
+        (look + self.looks.step()).min(self.limit)
+    }
 }
 
 impl<F: Family> Sprt<F> {
