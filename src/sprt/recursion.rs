@@ -150,7 +150,7 @@ pub(super) fn law(test: &Sprt<Bernoulli>, p: f64, work: u64) -> Result<Outcome, 
     let mut law = Vec::with_capacity(256);
     let (mut accept, mut reject) = (0.0, 0.0);
     // Fewer hits than the one accept H0, at least the other reject it; both can only grow with the samples.
-    let (mut accept_edge, mut reject_edge) = (0, 0);
+    let (mut accept_edge, mut reject_edge) = (0, 1);
     let (mut samples, mut next_look) = (0, test.look_after(0));
     let gap = test.look_schedule().step() > 1 || test.look_schedule().first() > 1;
     let (mut spent, mut looks) = (0_u64, 0_u32);
