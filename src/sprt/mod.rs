@@ -13,7 +13,7 @@ mod run;
 mod sequential;
 
 pub use approximation::Approximation;
-pub use bernoulli::{Bernoulli, BernoulliError};
+pub use bernoulli::{Bernoulli, BernoulliError, Counts};
 pub use bounds::{Bounds, BoundsError};
 pub use characteristic::{CHARACTERISTIC_WORK, Characteristic, CharacteristicError, LawPoint};
 pub use counts::CountsError;
