@@ -14,6 +14,16 @@ mod scalar {
     pub fn ln_1p(x: f64) -> f64 {
         libm::log1p(x)
     }
+
+    /// Exponential.
+    pub fn exp(x: f64) -> f64 {
+        libm::exp(x)
+    }
+
+    /// `exp(x) − 1`, accurate for small `x`.
+    pub fn exp_m1(x: f64) -> f64 {
+        libm::expm1(x)
+    }
 }
 
 #[cfg(not(feature = "libm"))]
@@ -27,9 +37,19 @@ mod scalar {
     pub fn ln_1p(x: f64) -> f64 {
         x.ln_1p()
     }
+
+    /// Exponential.
+    pub fn exp(x: f64) -> f64 {
+        x.exp()
+    }
+
+    /// `exp(x) − 1`, accurate for small `x`.
+    pub fn exp_m1(x: f64) -> f64 {
+        x.exp_m1()
+    }
 }
 
-pub use scalar::{ln, ln_1p};
+pub use scalar::{exp, exp_m1, ln, ln_1p};
 
 // The geometric half: correctly rounded, so that the same input gives the same bits on every machine.
 

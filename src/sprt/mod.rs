@@ -1,5 +1,6 @@
 //! Sequential probability ratio tests.
 
+mod approximation;
 mod bernoulli;
 mod bounds;
 mod characteristic;
@@ -11,7 +12,8 @@ mod recursion;
 mod run;
 mod sequential;
 
-pub use bernoulli::{Bernoulli, BernoulliError};
+pub use approximation::Approximation;
+pub use bernoulli::{Bernoulli, BernoulliError, Counts};
 pub use bounds::{Bounds, BoundsError};
 pub use characteristic::{CHARACTERISTIC_WORK, Characteristic, CharacteristicError, LawPoint};
 pub use counts::CountsError;

@@ -50,13 +50,27 @@ struct Walk {
     base: u64,
     hit: f64,
     miss: f64,
+    /// What rounding took from the probability of a hit, and of a miss, relative to it: one of them is `1 − p`.
+    hit_lost: f64,
+    miss_lost: f64,
 }
 
 impl Walk {
-    fn new(hit: f64, miss: f64) -> Self {
+    /// A walk whose hits are the successes, of probability `p`, or else the failures.
+    fn new(p: f64, rising: bool) -> Self {
         let mut cells = Vec::with_capacity(64);
         cells.push(1.0);
-        Self { cells, start: 0, base: 0, hit, miss }
+        let q = 1.0 - p;
+        let q_lost = ((1.0 - q) - p) / q;
+        let (hit, miss, hit_lost, miss_lost) = if rising { (p, q, 0.0, q_lost) } else { (q, p, q_lost, 0.0) };
+        Self { cells, start: 0, base: 0, hit, miss, hit_lost, miss_lost }
+    }
+
+    /// The probability of `cell`, at `hits` hits, with what rounding took from the probabilities of its outcomes.
+    #[inline]
+    fn restored(&self, cell: f64, hits: u64, samples: u64) -> f64 {
+        let lost = hits as i64 as f64 * self.hit_lost + (samples - hits) as i64 as f64 * self.miss_lost;
+        cell + cell * lost
     }
 
     fn live(&self) -> &[f64] {
@@ -66,35 +80,49 @@ impl Walk {
     /// One observation.
     #[inline]
     fn advance(&mut self) {
-        let (hit, miss) = (self.hit, self.miss);
-        let mut below = 0.0;
+        let mut risen = 0.0;
         for cell in &mut self.cells[self.start..] {
             let here = *cell;
-            *cell = miss * here + hit * below;
-            below = here;
+            // Never taken; it keeps the loop scalar. As vectors, each step would wait for the misaligned stores of the
+            // one before, which costs four times what it saves on the usual few cells.
+            if here < 0.0 {
+                break;
+            }
+            *cell = self.miss * here + risen;
+            risen = self.hit * here;
         }
-        self.cells.push(hit * below);
+        self.cells.push(risen);
     }
 
-    /// Takes away the cells of fewer than `accept` hits and those of at least `reject` hits; their sums.
+    /// Takes away the lowest cell, with its probability.
     #[inline]
-    fn absorb(&mut self, accept: u64, reject: u64) -> (f64, f64) {
-        let (mut accepted, mut rejected) = (0.0, 0.0);
-        while self.base < accept && self.start < self.cells.len() {
-            accepted += self.cells[self.start];
-            self.start += 1;
-            self.base += 1;
-        }
-        while self.start < self.cells.len() && self.base + self.live().len() as u64 > reject {
-            rejected += self.cells.pop().unwrap_or(0.0);
-        }
-        if self.start > 64 && self.start > self.live().len() {
-            let live = self.start..self.cells.len();
-            self.cells.copy_within(live, 0);
-            self.cells.truncate(self.cells.len() - self.start);
-            self.start = 0;
-        }
-        (accepted, rejected)
+    fn take_lowest(&mut self, samples: u64) -> f64 {
+        let Some(&cell) = self.live().first() else { return 0.0 };
+        let taken = self.restored(cell, self.base, samples);
+        self.start += 1;
+        self.base += 1;
+        taken
+    }
+
+    /// Takes away the highest cell, with its probability.
+    #[inline]
+    fn take_highest(&mut self, samples: u64) -> f64 {
+        let hits = self.end() - 1;
+        let Some(cell) = self.cells.pop() else { return 0.0 };
+        self.restored(cell, hits, samples)
+    }
+
+    /// One more than the hits of the highest cell.
+    #[inline]
+    fn end(&self) -> u64 {
+        self.base + (self.cells.len() - self.start) as u64
+    }
+
+    /// Moves the cells to the front of their buffer.
+    #[cold]
+    fn compact(&mut self) {
+        self.cells.drain(..self.start);
+        self.start = 0;
     }
 
     /// Drops negligible cells at both ends, and tells the probability that is left.
@@ -113,7 +141,7 @@ impl Walk {
 /// The law of `test` under the probability of success `p`, strictly between 0 and 1, within `work` cells.
 pub(super) fn law(test: &Sprt<Bernoulli>, p: f64, work: u64) -> Result<Outcome, CharacteristicError> {
     let rising = test.family().p1() > test.family().p0();
-    let mut walk = if rising { Walk::new(p, 1.0 - p) } else { Walk::new(1.0 - p, p) };
+    let mut walk = Walk::new(p, rising);
     let decision = |hits: u64, samples: u64| {
         let (successes, failures) = if rising { (hits, samples - hits) } else { (samples - hits, hits) };
         test.family().decision(successes, failures, test.bounds())
@@ -122,8 +150,9 @@ pub(super) fn law(test: &Sprt<Bernoulli>, p: f64, work: u64) -> Result<Outcome, 
     let mut law = Vec::with_capacity(256);
     let (mut accept, mut reject) = (0.0, 0.0);
     // Fewer hits than the one accept H0, at least the other reject it; both can only grow with the samples.
-    let (mut accept_edge, mut reject_edge) = (0, 0);
+    let (mut accept_edge, mut reject_edge) = (0, 1);
     let (mut samples, mut next_look) = (0, test.look_after(0));
+    let gap = test.look_schedule().step() > 1 || test.look_schedule().first() > 1;
     let (mut spent, mut looks) = (0_u64, 0_u32);
     loop {
         spent = spent.saturating_add(walk.live().len() as u64 + STEP_WORK);
@@ -138,13 +167,31 @@ pub(super) fn law(test: &Sprt<Bernoulli>, p: f64, work: u64) -> Result<Outcome, 
             }
             continue;
         }
-        while accept_edge <= samples && decision(accept_edge, samples) == Some(Decision::AcceptH0) {
+        // From one look to the next observation each edge moves by one at most, after a longer gap by as many.
+        let (mut accepted, mut rejected) = (0.0, 0.0);
+        if decision(accept_edge, samples) == Some(Decision::AcceptH0) {
             accept_edge += 1;
+            if gap {
+                accept_edge =
+                    first_from(accept_edge, samples, |hits| decision(hits, samples) != Some(Decision::AcceptH0));
+            }
+            while walk.base < accept_edge && walk.base < walk.end() {
+                accepted += walk.take_lowest(samples);
+            }
         }
-        while reject_edge <= samples && decision(reject_edge, samples) != Some(Decision::RejectH0) {
+        if decision(reject_edge, samples) != Some(Decision::RejectH0) {
             reject_edge += 1;
+            if gap {
+                reject_edge =
+                    first_from(reject_edge, samples, |hits| decision(hits, samples) == Some(Decision::RejectH0));
+            }
         }
-        let (accepted, rejected) = walk.absorb(accept_edge, reject_edge);
+        while walk.end() > reject_edge && walk.base < walk.end() {
+            rejected += walk.take_highest(samples);
+        }
+        if walk.start >= 64.max(walk.live().len()) {
+            walk.compact();
+        }
         if accepted + rejected > 0.0 {
             law.push(LawPoint { samples, accept: accepted, reject: rejected });
             accept += accepted;
@@ -160,8 +207,14 @@ pub(super) fn law(test: &Sprt<Bernoulli>, p: f64, work: u64) -> Result<Outcome, 
                 return Ok(Outcome { law, undecided: 0.0, remainder, samples });
             }
         }
-        next_look = test.look_after(samples);
+        next_look = test.look_following(samples);
     }
+}
+
+/// The least number of hits from `edge` on for which this holds, or one more than `samples`.
+#[inline(never)]
+fn first_from(edge: u64, samples: u64, holds: impl Fn(u64) -> bool) -> u64 {
+    (edge..=samples).find(|hits| holds(*hits)).unwrap_or(samples + 1)
 }
 
 /// The law under a probability of success of 0 or 1: one point, found by bisection.
