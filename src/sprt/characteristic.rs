@@ -34,7 +34,14 @@ pub struct Characteristic {
     last: u64,
     /// Bound of the expected samples beyond `last`, given the remainder.
     beyond: f64,
+    #[cfg_attr(feature = "serde", serde(serialize_with = "sequence"))]
     law: Vec<LawPoint>,
+}
+
+/// The points as a sequence, which needs no support for `Vec`.
+#[cfg(feature = "serde")]
+fn sequence<S: serde::Serializer>(law: &[LawPoint], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(law)
 }
 
 /// Probabilities of stopping after one number of observations.
