@@ -37,7 +37,7 @@ impl CellMap {
 ///
 /// A split halves both sides, so that the four children have equal measures.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Cell {
     map: CellMap,
     u: [f64; 2],

@@ -14,7 +14,7 @@ use super::luminance;
 ///
 /// The pair is the light vector of Serpaggi and Péroche (2001): direction Φ/|Φ|, power E.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LightVector {
     pub(super) irradiance: DVec3,
     pub(super) vector_irradiance: DVec3,
