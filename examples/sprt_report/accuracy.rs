@@ -32,7 +32,7 @@ struct Case {
 }
 
 /// The designs of the table: a look after every observation, no limit.
-const SHOWN: [&str; 6] = ["brief", "classic", "narrow", "very_near", "tiny_errors", "cal_45_55"];
+const SHOWN: [&str; 5] = ["brief", "classic", "narrow", "tiny_errors", "cal_45_55"];
 
 /// Error of the acceptance, absolute, and of the mean sample size, relative.
 fn error(of: &Approximation, accept: f64, mean: f64) -> [f64; 2] {
