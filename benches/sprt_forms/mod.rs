@@ -1,13 +1,14 @@
 //! One stream of outcomes through every form of a test, shared by the bench and the report.
 //!
-//! The stream is longer than what a branch predictor learns by heart. Each loop restarts the test as it stops, and
-//! answers how often it rejected, so that the forms can be checked against each other before they are timed.
+//! The stream is longer than what a branch predictor learns by heart, which is some tens of thousands of outcomes. Each
+//! loop restarts the test as it stops, and answers how often it rejected, so that the forms can be checked against each
+//! other before they are timed.
 
 use nexus_stats_detection::estimation::{Decision as PeerDecision, SprtBernoulli};
 use steradian::sprt::{Bernoulli, Bounds, Decision, Looks, Sprt, Step};
 
 /// Outcomes of the stream.
-pub const OUTCOMES: usize = 1 << 16;
+pub const OUTCOMES: usize = 1 << 20;
 
 /// A test of `p0` against `p1` with Wald's boundaries.
 pub fn design(p0: f64, p1: f64, alpha: f64, beta: f64) -> Sprt<Bernoulli> {
@@ -27,7 +28,7 @@ pub fn scheduled() -> Sprt<Bernoulli> {
 
 /// It takes the whole stream and does not stop.
 pub fn long() -> Sprt<Bernoulli> {
-    design(0.19, 0.21, 1e-9, 1e-9)
+    design(0.199, 0.201, 1e-9, 1e-9)
 }
 
 /// Outcomes of a fixed linear congruence, a success in five.

@@ -71,7 +71,7 @@ fn observations(out: &mut impl Write, count: u16) -> Result<(), Box<dyn Error>> 
     let mut jobs = Vec::new();
     for (column, test, stream) in [(0, &brief, &outcomes[..]), (1, &long, &outcomes), (2, &brief, &outcomes[..LEARNT])]
     {
-        let (repeat, units) = ((8 * OUTCOMES / stream.len()) as u32, stream.len());
+        let (repeat, units) = ((2 * OUTCOMES / stream.len()) as u32, stream.len());
         let call = Box::new(move || _ = black_box(baseline(black_box(test), stream)));
         jobs.push(Job { name: ROWS[0], column, repeat, units, call });
     }
