@@ -1,4 +1,5 @@
 //! Law: a cache answers by its records where they are valid, and nowhere else.
+#![cfg(feature = "ilv")]
 
 mod bounds;
 mod seeds;

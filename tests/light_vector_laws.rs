@@ -1,4 +1,5 @@
 //! Law: a light vector is what its rays and weights say, exactly where the field is constant, in the mean elsewhere.
+#![cfg(feature = "ilv")]
 
 mod bounds;
 mod seeds;

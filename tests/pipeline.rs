@@ -3,6 +3,7 @@
 //! The whole pipeline runs: camera, gathers, sequential tests, Voronoi weights, cache, interpolation. Errors are of the
 //! luminance of the indirect radiance, relative to its mean, against two independent halves of a brute-force reference,
 //! so that the noise of the reference does not count as error.
+#![cfg(feature = "ilv")]
 
 mod bounds;
 mod seeds;

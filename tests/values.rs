@@ -1,6 +1,7 @@
 //! Law: the same input gives the same bits on every machine, thread count and optimisation level.
 //!
 //! The values below are pinned. A change of one of them is a change for users and belongs under `Values` in the changelog.
+#![cfg(feature = "ilv")]
 
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
