@@ -26,7 +26,7 @@
 //!
 //! # Laws of the whole crate
 //! (1) What cannot be answered is a typed error: no panic, no NaN where none was given, no endless loop. Tested module by
-//!     module; `sprt` and `voronoi` are fuzzed.
+//!     module; `sprt`, `voronoi` and `ilv` are fuzzed.
 //! (2) The geometry uses correctly rounded transcendental functions only: the same input gives the same bits on every
 //!     machine, thread count and optimisation level (`tests/values.rs`, `tests/pipeline.rs`).
 //! (3) No `unsafe` code.
