@@ -20,9 +20,7 @@
 //! Randomised boundaries, which would meet the risks exactly.
 
 use super::recursion::STEP_WORK;
-use super::{
-    Bernoulli, Bounds, BoundsError, Characteristic, CharacteristicError, Decision, MAX_SAMPLES, Sprt,
-};
+use super::{Bernoulli, Bounds, BoundsError, Characteristic, CharacteristicError, Decision, MAX_SAMPLES, Sprt};
 use crate::float;
 
 /// Cell updates that [`Sprt::calibrate`] spends at most: about two seconds.
@@ -239,7 +237,8 @@ impl Search {
                     low + gap * (above / (above + below)).clamp(0.0, 1.0)
                 }
             };
-            let guess = if best.is_none() && guess >= high { high } else { guess.max(low + gap / 64.0).min(high - gap / 64.0) };
+            let guess =
+                if best.is_none() && guess >= high { high } else { guess.max(low + gap / 64.0).min(high - gap / 64.0) };
             let trial = self.trial(side, guess)?;
             if keeps(&trial) {
                 (high, high_risk) = (trial.over, (trial.risk > 0.0).then_some(trial.risk));

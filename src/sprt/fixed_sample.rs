@@ -80,17 +80,19 @@ impl Bernoulli {
                 under_h0.rise();
                 under_h1.rise();
             }
-            if under_h1.head_within(beta, &mut left) {
-                let (samples, critical) = (under_h0.samples, under_h0.hits + 1);
-                let (first, second) = (under_h0.tail(&mut left), under_h1.head(&mut left));
+            let kept = under_h1.head_within(beta, &mut left);
+            let (samples, critical) = (under_h0.samples, under_h0.hits + 1);
+            let risks = if kept { [under_h0.tail(&mut left), under_h1.head(&mut left)] } else { [1.0; 2] };
+            // Sums that were cut short tell nothing.
+            if left == 0 || under_h0.here < LEAST {
+                return Err(FixedSampleError::Work { samples });
+            }
+            if kept {
                 let critical = if rising { critical } else { samples - critical };
-                return Ok(FixedSample { samples, critical, alpha: first, beta: second });
+                return Ok(FixedSample { samples, critical, alpha: risks[0], beta: risks[1] });
             }
             under_h0.extend();
             under_h1.extend();
-            if left == 0 || under_h0.here < LEAST {
-                return Err(FixedSampleError::Work { samples: under_h0.samples });
-            }
         }
     }
 }

@@ -46,7 +46,7 @@ impl Sprt<Bernoulli> {
     /// assert!((plan.worst().mean_samples() - 4.0).abs() < 1e-6);
     /// assert!((plan.worst_probability() - 0.5).abs() < 1e-3);
     /// assert_eq!(plan.under_h0().quantile(0.9), Some(6)); // 1 − (3/8)³ ≥ 0.9
-    /// // Both risks are 1/10; a fixed sample needs 5: three successes of five have 106/1024 under H0, so 6 or more.
+    /// // Both risks are 1/10, which a fixed sample keeps from 7 on.
     /// assert_eq!(plan.fixed_sample().map(|fixed| fixed.samples()), Some(7));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

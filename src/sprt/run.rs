@@ -53,7 +53,14 @@ pub struct Run<F: Family> {
 
 impl<F: Family> Run<F> {
     pub(super) fn new(test: Sprt<F>) -> Self {
-        Self { test, statistic: test.empty(), samples: 0, next_look: test.look_after(0), step: Step::Continue, postponed: false }
+        Self {
+            test,
+            statistic: test.empty(),
+            samples: 0,
+            next_look: test.look_after(0),
+            step: Step::Continue,
+            postponed: false,
+        }
     }
 
     /// Takes one observation; a run that has stopped ignores it and answers as before.
