@@ -146,41 +146,38 @@ proptest! {
         let (p0, p1) = (design.family().p0(), design.family().p1());
         let fixed = design.family().fixed_sample(alpha, beta).expect("a short test");
         let relative = 1.0 + bound("fixed_sample", "risk, relative");
-        let rejects = |s: u64, critical: u64| if p1 > p0 { s >= critical } else { s <= critical };
-        let risks = |n: u64, critical: u64| {
-            let (mut first, mut second) = (0.0, 0.0);
-            for s in 0..=n {
-                if rejects(s, critical) { first += binomial(n, s, p0) } else { second += binomial(n, s, p1) }
-            }
-            (first, second)
-        };
-        let (first, second) = risks(fixed.samples(), fixed.critical());
-        prop_assert!((first - fixed.alpha()).abs() <= first * (relative - 1.0));
-        prop_assert!((second - fixed.beta()).abs() <= second * (relative - 1.0));
-        prop_assert!(first <= alpha * relative && second <= beta * relative);
-        for n in 1..fixed.samples() {
-            for critical in 0..=n {
-                let (first, second) = risks(n, critical);
-                prop_assert!(first * relative > alpha || second * relative > beta, "{critical} of {n} keep the risks");
+        let (mut under_h0, mut under_h1) = (vec![1.0], vec![1.0]);
+        for n in 1..=fixed.samples() {
+            (under_h0, under_h1) = (one_more(&under_h0, p0), one_more(&under_h1, p1));
+            // Rejecting from `critical` successes on if p1 > p0, down from `critical` else.
+            let risks = |critical: u64| {
+                let (low, high) = if p1 > p0 { (critical, n + 1) } else { (0, critical + 1) };
+                let sum = |row: &[f64], inside: bool| -> f64 {
+                    (0..).zip(row).filter(|(s, _)| (low..high).contains(s) == inside).map(|(_, cell)| cell).sum()
+                };
+                (sum(&under_h0, true), sum(&under_h1, false))
+            };
+            if n == fixed.samples() {
+                let (first, second) = risks(fixed.critical());
+                prop_assert!((first - fixed.alpha()).abs() <= first * (relative - 1.0), "{first} {fixed:?}");
+                prop_assert!((second - fixed.beta()).abs() <= second * (relative - 1.0), "{second} {fixed:?}");
+                prop_assert!(first <= alpha * relative && second <= beta * relative, "{fixed:?}");
+            } else {
+                // The best critical value keeps the first risk barely.
+                let fits = |critical: &u64| risks(*critical).0 <= alpha / relative;
+                let best = if p1 > p0 { (0..=n).find(fits) } else { (0..=n).rev().find(fits) };
+                let kept = best.is_some_and(|critical| risks(critical).1 <= beta / relative);
+                prop_assert!(!kept, "{best:?} of {n} keeps the risks, {fixed:?}");
             }
         }
     }
 }
 
-/// Binomial probability from a product of ratios.
-fn binomial(n: u64, s: u64, p: f64) -> f64 {
-    let mut probability = 1.0;
-    for k in 1..=s {
-        probability *= (n - s + k) as f64 / k as f64 * p;
-        // Spread the failures so that nothing overflows.
-        if k <= n - s {
-            probability *= 1.0 - p;
-        }
-    }
-    for _ in s..n - s.min(n - s) {
-        probability *= if s < n - s { 1.0 - p } else { 1.0 };
-    }
-    probability
+/// The binomial probabilities of one sample more.
+fn one_more(row: &[f64], p: f64) -> Vec<f64> {
+    let stay = row.iter().copied().chain([0.0]).map(|cell| cell * (1.0 - p));
+    let rise = [0.0].into_iter().chain(row.iter().copied()).map(|cell| cell * p);
+    stay.zip(rise).map(|(stay, rise)| stay + rise).collect()
 }
 
 /// What exact risks save over Wald's boundaries; `cargo test --test sprt_calibration -- --nocapture` shows the table.
@@ -247,7 +244,9 @@ fn what_cannot_be_calibrated_is_refused() -> Result<(), Failure> {
     let near = Sprt::new(Bernoulli::new(0.5, 0.5 + 1e-9)?, Bounds::from_risks(0.05, 0.1)?);
     assert_eq!(near.calibrate_within(0.05, 0.1, 1 << 24), Err(CalibrationError::Work));
     assert_eq!(Sprt::calibrated(family, 1e-12, 1e-12).map(|best| best.alpha() <= 1e-12), Ok(true));
-    assert!(Sprt::calibrated(family, f64::MIN_POSITIVE, 0.1).is_ok());
+    let rare = Sprt::calibrated(family, 1e-41, 0.1);
+    assert_eq!(rare, Err(CalibrationError::Rare { risk: 1e-41 }));
+    assert_eq!(Sprt::calibrated(family, 1e-40, 0.1).map(|best| best.alpha() > 0.0 && best.alpha() <= 1e-40), Ok(true));
     Ok(())
 }
 

@@ -19,7 +19,7 @@
 //! # Not here
 //! Randomised boundaries, which would meet the risks exactly.
 
-use super::recursion::STEP_WORK;
+use super::recursion::{LEAST, STEP_WORK};
 use super::{Bernoulli, Bounds, BoundsError, Characteristic, CharacteristicError, Decision, MAX_SAMPLES, Sprt};
 use crate::float;
 
@@ -32,6 +32,12 @@ pub const CALIBRATION_ROUNDING: f64 = 1e-12;
 
 /// The largest distance of a boundary from the ratio 1, as a logarithm: `exp` of it is a finite double.
 const FARTHEST: f64 = 709.0;
+
+/// Logarithms of the ratio closer than this are one: the decision tolerates as much, in long runs.
+const TIE: f64 = 1e-12;
+
+/// How many times farther than the runs under H0 and H1 those under other probabilities are followed.
+const FARTHER: u64 = 8;
 
 /// A test whose boundaries were set on its exact risks.
 ///
@@ -105,7 +111,8 @@ impl Sprt<Bernoulli> {
     /// An exhausted run counts as an error of both kinds, so the risks hold whatever is concluded from it.
     ///
     /// # Errors
-    /// [`CalibrationError::Bounds`] unless these are risks for [`Bounds::from_risks`];
+    /// [`CalibrationError::Bounds`] unless these are risks for [`Bounds::from_risks`], [`CalibrationError::Rare`] unless
+    /// they are at least 1e-40;
     /// [`CalibrationError::Unreachable`] if no boundaries keep both within the limit of the test (proven);
     /// [`CalibrationError::Work`] after [`CALIBRATION_WORK`] cell updates, as for hypotheses a thousandth apart.
     ///
@@ -130,15 +137,18 @@ impl Sprt<Bernoulli> {
     /// As for [`calibrate`](Self::calibrate), with this budget.
     pub fn calibrate_within(&self, alpha: f64, beta: f64, work: u64) -> Result<Calibration, CalibrationError> {
         let _ = Bounds::from_risks(alpha, beta)?;
+        if alpha.min(beta) < LEAST {
+            return Err(CalibrationError::Rare { risk: alpha.min(beta) });
+        }
         let family = self.family();
         // Nearer to 1 than any other value of the ratio that a short test meets.
         let nearest = (family.success_increment().abs().min(family.failure_increment().abs()) / 1_048_576.0).min(1e-6);
-        let mut search = Search { design: *self, asked: [alpha, beta], at: [nearest; 2], nearest, work };
+        let mut search = Search { design: *self, asked: [alpha, beta], at: [nearest; 2], work };
         loop {
             // Both hold only if neither call moves its boundary, so both are then of the same pair.
             let (under_h0, under_h1) = (search.widen(Side::Upper)?, search.widen(Side::Lower)?);
             if let (Some(under_h0), Some(under_h1)) = (under_h0, under_h1) {
-                return Ok(Calibration { test: search.test(search.at)?, under_h0, under_h1 });
+                return search.settle(under_h0, under_h1);
             }
         }
     }
@@ -158,8 +168,6 @@ struct Search {
     asked: [f64; 2],
     /// `ln A` and `−ln B`.
     at: [f64; 2],
-    /// Where both are at first.
-    nearest: f64,
     work: u64,
 }
 
@@ -173,9 +181,12 @@ struct Trial {
 }
 
 impl Trial {
-    /// A boundary for the same test that no value of the ratio is near.
-    fn middle(&self) -> f64 {
-        f64::midpoint(self.over, self.up_to.min(self.over + 1.0)).min(FARTHEST)
+    /// A boundary for the same test, just over the values that it excludes: other values may lie above, that only
+    /// longer runs meet.
+    fn least(&self) -> f64 {
+        let room = self.up_to.min(self.over + 1.0) - self.over;
+        let step = (room / 1_048_576.0).max(TIE * (1.0 + self.over)).min(room / 2.0);
+        (self.over + step).min(FARTHEST)
     }
 }
 
@@ -195,9 +206,25 @@ impl Search {
         let exact = test.characteristic_within(p, self.work)?;
         let wrong = if side == Side::Upper { exact.reject() } else { exact.accept() };
         let risk = wrong + exact.undecided();
-        let (over, up_to, spent) = interval(&test, side, &exact);
+        let (over, up_to, spent) = interval(&test, side, last(&test, &exact));
         self.work = self.work.saturating_sub(spent);
         Ok(Trial { risk, over: over.max(0.0).min(at), up_to: up_to.max(at), exact })
+    }
+
+    /// Puts both boundaries in the middle of what is the same test, so that no value of the ratio is near.
+    fn settle(&self, under_h0: Characteristic, under_h1: Characteristic) -> Result<Calibration, CalibrationError> {
+        let least = self.test(self.at)?;
+        let farthest = last(&least, &under_h0).max(last(&least, &under_h1)).saturating_mul(FARTHER);
+        let middle = |side: Side| {
+            let (over, up_to, _) = interval(&least, side, farthest.min(least.truncation().unwrap_or(MAX_SAMPLES)));
+            let (at, over) = (self.at[side as usize], over.max(0.0));
+            f64::midpoint(over, up_to.min(over + 1.0)).clamp(at.min(FARTHEST), FARTHEST)
+        };
+        let test = self.test([middle(Side::Upper), middle(Side::Lower)])?;
+        let same = |p: f64, exact: &Characteristic| test.characteristic_within(p, u64::MAX).as_ref() == Ok(exact);
+        let test =
+            if same(test.family().p0(), &under_h0) && same(test.family().p1(), &under_h1) { test } else { least };
+        Ok(Calibration { test, under_h0, under_h1 })
     }
 
     /// Moves a boundary away from 1 as little as its risk asks; the characteristic, if it holds the risk as it is.
@@ -206,11 +233,7 @@ impl Search {
         let keeps = |trial: &Trial| trial.risk <= asked * (1.0 + CALIBRATION_ROUNDING);
         let here = self.trial(side, self.at[side as usize])?;
         if keeps(&here) {
-            if self.at[side as usize] > self.nearest {
-                return Ok(Some(here.exact));
-            }
-            self.at[side as usize] = here.middle();
-            return Ok(None);
+            return Ok(Some(here.exact));
         }
         // A = 1/α and B = β keep the risks of any test without limit.
         let unlimited = self.design.truncation().is_none();
@@ -220,9 +243,8 @@ impl Search {
         let mut best: Option<Trial> = None;
         let mut stride = 1.0;
         for turn in 1_u32.. {
-            // Values of the ratio closer than this are one: the decision tolerates as much.
             let gap = high - low;
-            if gap <= 1e-12 * (1.0 + low) {
+            if gap <= TIE * (1.0 + low) {
                 break;
             }
             // A risk falls about as the exponential of its boundary.
@@ -250,14 +272,23 @@ impl Search {
         let Some(best) = best else {
             return Err(CalibrationError::Unreachable { risk: low_risk, asked });
         };
-        self.at[side as usize] = best.middle();
+        self.at[side as usize] = best.least();
         Ok(None)
     }
 }
 
+/// The last look that a run ever takes.
+fn last(test: &Sprt<Bernoulli>, exact: &Characteristic) -> u64 {
+    match (test.truncation(), exact.law().last()) {
+        (Some(limit), _) if exact.undecided() > 0.0 => limit,
+        (_, Some(point)) => point.samples,
+        _ => 0,
+    }
+}
+
 /// Between which values of the ratio, as the logarithm of its distance from 1, the boundary of this side can move
-/// without changing what a run does at any look up to the last of `exact`; and the work that `exact` took.
-fn interval(test: &Sprt<Bernoulli>, side: Side, exact: &Characteristic) -> (f64, f64, u64) {
+/// without changing what a run does at any look up to `last`; and the work of a characteristic up to there.
+fn interval(test: &Sprt<Bernoulli>, side: Side, last: u64) -> (f64, f64, u64) {
     let family = test.family();
     let rising = family.p1() > family.p0();
     let (success, failure) = (family.success_increment(), family.failure_increment());
@@ -266,11 +297,6 @@ fn interval(test: &Sprt<Bernoulli>, side: Side, exact: &Characteristic) -> (f64,
     let decision = |hits: u64, samples: u64| {
         let (successes, failures) = if rising { (hits, samples - hits) } else { (samples - hits, hits) };
         family.decision(successes, failures, test.bounds())
-    };
-    let last = match (exact.undecided() > 0.0, test.truncation(), exact.law().last()) {
-        (true, Some(limit), _) => limit,
-        (_, _, Some(point)) => point.samples,
-        _ => 0,
     };
     let (mut over, mut up_to) = (f64::NEG_INFINITY, f64::INFINITY);
     // Hits below the one accept H0, hits from the other on reject it.
@@ -323,6 +349,11 @@ pub enum CalibrationError {
         /// The risk asked for.
         asked: f64,
     },
+    /// A risk below 1e-40, which the characteristic does not resolve.
+    Rare {
+        /// The value given.
+        risk: f64,
+    },
     /// The budget of work was spent.
     Work,
 }
@@ -347,6 +378,7 @@ impl core::fmt::Display for CalibrationError {
             Self::Unreachable { risk, asked } => {
                 write!(f, "within the limit of the test a risk stays at {risk}, above the {asked} asked for")
             }
+            Self::Rare { risk } => write!(f, "a risk below 1e-40 cannot be kept exactly, got {risk}"),
             Self::Work => write!(f, "the work is spent before the boundaries are found"),
         }
     }

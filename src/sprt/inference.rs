@@ -29,6 +29,9 @@ const LOG_ODDS: (f64, f64) = (-100.0, 36.04);
 /// Newton steps before only bisection is left.
 const NEWTON: u32 = 24;
 
+/// Log-odds within which a step may end the search: more than their rounding.
+const SURE: f64 = 1e-6;
+
 /// Steps in all: bisection of [`LOG_ODDS`] down to the last bit takes 60.
 const STEPS: u32 = NEWTON + 64;
 
@@ -100,7 +103,7 @@ impl Run<Bernoulli> {
         }
         let mut after = Inference { run: *self, work, p_value: 1.0, median_unbiased: 0.5 };
         after.p_value = after.p_value_at(self.test().family().p0())?;
-        after.median_unbiased = after.root(Split::Middle, 0.5)?;
+        after.median_unbiased = after.root(Split::Middle, 0.0)?;
         Ok(after)
     }
 }
@@ -261,7 +264,7 @@ impl Inference {
                 low = x;
             }
             let newton = x - value / slope;
-            if (newton - x).abs() <= f64::EPSILON * (1.0 + x.abs()) {
+            if (newton - x).abs() <= f64::EPSILON * (1.0 + x.abs()) && value.abs() <= SURE {
                 x = newton;
                 break;
             }
@@ -284,8 +287,13 @@ impl Inference {
         };
         let counted = more.probability() + share * tails.at.probability();
         let others = less.probability() + (1.0 - share) * tails.at.probability();
-        let slope = sign * (more.slope() + share * tails.at.slope());
-        Ok((float::ln(counted / others), slope / (counted * others)))
+        // The two slopes are opposite; that of the rarer side cancels less.
+        let slope = if counted <= others {
+            more.slope() + share * tails.at.slope()
+        } else {
+            -(less.slope() + (1.0 - share) * tails.at.slope())
+        };
+        Ok((float::ln(counted / others), sign * slope / (counted * others)))
     }
 }
 

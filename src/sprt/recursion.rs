@@ -26,7 +26,7 @@ const NEGLIGIBLE: f64 = 1e-290;
 const REMAINDER: f64 = f64::EPSILON / 4.0;
 
 /// … where neither counts as less than this.
-const LEAST: f64 = 1e-40;
+pub(super) const LEAST: f64 = 1e-40;
 
 /// What the recursion found.
 pub(super) struct Outcome {
