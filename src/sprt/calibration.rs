@@ -99,7 +99,9 @@ impl Sprt<Bernoulli> {
     /// assert!((best.alpha() - 1.0 / 9.0).abs() < 1e-15);
     /// assert!((best.under_h0().mean_samples() - 7.0).abs() < 1e-13);
     /// // A risk that can be met exactly is.
-    /// assert_eq!(Sprt::calibrated(family, 1.0 / 9.0, 1.0 / 9.0)?.under_h0(), best.under_h0());
+    /// assert_eq!(Sprt::calibrated(family, 1.0 / 9.0, 1.0 / 9.0)?.test().bounds(), best.test().bounds());
+    /// // In the middle between the values 4 and 8 of the ratio, that is, or 1/8 and 1/4.
+    /// assert!((best.test().bounds().upper() - 32.0_f64.sqrt()).abs() < 1e-12);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn calibrated(family: Bernoulli, alpha: f64, beta: f64) -> Result<Calibration, CalibrationError> {
@@ -221,10 +223,15 @@ impl Search {
             f64::midpoint(over, up_to.min(over + 1.0)).clamp(at.min(FARTHEST), FARTHEST)
         };
         let test = self.test([middle(Side::Upper), middle(Side::Lower)])?;
-        let same = |p: f64, exact: &Characteristic| test.characteristic_within(p, u64::MAX).as_ref() == Ok(exact);
-        let test =
-            if same(test.family().p0(), &under_h0) && same(test.family().p1(), &under_h1) { test } else { least };
-        Ok(Calibration { test, under_h0, under_h1 })
+        let (h0, h1) = (test.family().p0(), test.family().p1());
+        let (settled0, settled1) =
+            (test.characteristic_within(h0, u64::MAX)?, test.characteristic_within(h1, u64::MAX)?);
+        if settled0.law() == under_h0.law() && settled1.law() == under_h1.law() {
+            Ok(Calibration { test, under_h0: settled0, under_h1: settled1 })
+        } else {
+            // The ratio has values too near each other for a middle to be sure.
+            Ok(Calibration { test: least, under_h0, under_h1 })
+        }
     }
 
     /// Moves a boundary away from 1 as little as its risk asks; the characteristic, if it holds the risk as it is.
