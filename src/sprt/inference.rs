@@ -409,6 +409,10 @@ mod tests {
         let mut run = test()?.start();
         let _ = run.push_counts(9, 9)?;
         assert_eq!(run.inference(), Err(InferenceError::Schedule { samples: 9 }));
+        // One by one the test may end at these counts, but not by the law of a single look.
+        let mut run = test()?.start();
+        let _ = run.push_counts(4, 9)?;
+        assert_eq!(run.inference(), Err(InferenceError::Schedule { samples: 9 }));
         // A batch that stops short of the look, or ends on it, postpones nothing.
         let mut run = test()?.looks(Looks::from(10).every(2)).start();
         let _ = (run.push_counts(3, 8)?, run.push_counts(2, 2)?);
