@@ -296,6 +296,8 @@ impl core::error::Error for BernoulliError {}
 
 #[cfg(test)]
 mod tests {
+    use alloc::boxed::Box;
+
     use super::*;
 
     #[test]

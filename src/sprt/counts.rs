@@ -136,6 +136,8 @@ impl core::error::Error for CountsError {}
 
 #[cfg(test)]
 mod tests {
+    use alloc::boxed::Box;
+
     use super::super::{Bernoulli, Bounds, Decision, Looks, MAX_SAMPLES, Sprt};
     use super::*;
 

@@ -167,7 +167,7 @@ pub(super) fn law(test: &Sprt<Bernoulli>, p: f64, work: u64) -> Result<Outcome, 
             }
             continue;
         }
-        // From one look to the next observation each edge moves by one at most, after a longer gap by as many.
+        // Over one observation an edge moves by one at most, over a gap between looks by as many as are in it.
         let (mut accepted, mut rejected) = (0.0, 0.0);
         if decision(accept_edge, samples) == Some(Decision::AcceptH0) {
             accept_edge += 1;
@@ -198,7 +198,11 @@ pub(super) fn law(test: &Sprt<Bernoulli>, p: f64, work: u64) -> Result<Outcome, 
             reject += rejected;
         }
         if samples >= test.limit() {
-            return Ok(Outcome { law, undecided: walk.trim(), remainder: 0.0, samples });
+            let mut undecided = 0.0;
+            while walk.base < walk.end() {
+                undecided += walk.take_lowest(samples);
+            }
+            return Ok(Outcome { law, undecided, remainder: 0.0, samples });
         }
         looks += 1;
         if looks % CHECK == 0 || walk.live().is_empty() {

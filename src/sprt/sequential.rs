@@ -166,6 +166,8 @@ impl<F: Family> From<Stored<F>> for Sprt<F> {
 
 #[cfg(test)]
 mod tests {
+    use alloc::boxed::Box;
+
     use super::super::Bernoulli;
     use super::*;
 

@@ -15,7 +15,7 @@ pub fn are_hypotheses(p0: f64, p1: f64) -> bool {
 /// The sum is judged exactly: of two doubles in (0, 1), `large − 1/2` and `1/2 − small` are comparable without
 /// rounding if `large ≥ 1/2`, and else the sum is below 1.
 pub fn are_risks(alpha: f64, beta: f64) -> bool {
-    let in_range = |risk: f64| risk >= f64::MIN_POSITIVE && risk < 1.0;
+    let in_range = |risk: f64| (f64::MIN_POSITIVE..1.0).contains(&risk);
     let (large, small) = (alpha.max(beta), alpha.min(beta));
     in_range(alpha) && in_range(beta) && (large < 0.5 || small < 1.0 - large)
 }
