@@ -193,22 +193,20 @@ proptest! {
     /// The interval covers the truth with at least its level, and each limit misses with at most half the rest.
     #[test]
     fn intervals_cover(test in test(), level in 0.3..0.999_f64) {
-        let (all, _) = outcomes(&test, 0.5, LONGEST);
-        let intervals: BTreeMap<_, _> = all.iter().map(|(run, _)| {
-            let interval = infer(run).confidence_interval(level).expect("a level");
-            ((run.samples(), run.successes()), interval)
-        }).collect();
-        for tenth in 1..40 {
-            let p = f64::from(tenth) / 40.0;
+        let mut intervals = BTreeMap::new();
+        for fortieth in 1..40 {
+            let p = f64::from(fortieth) / 40.0;
             let (mut below, mut above) = (0.0, 0.0);
             let (points, left) = outcomes(&test, p, LONGEST);
             for (run, probability) in points {
-                // What the enumeration at 1/2 did not reach counts as missed, and so does what is left.
-                match intervals.get(&(run.samples(), run.successes())) {
-                    Some(interval) if p < interval.lower() => below += probability,
-                    Some(interval) if p > interval.upper() => above += probability,
-                    Some(interval) => prop_assert!(interval.contains(p)),
-                    None => (below, above) = (below + probability / 2.0, above + probability / 2.0),
+                let interval = intervals.entry((run.samples(), run.successes()));
+                let interval = interval.or_insert_with(|| infer(&run).confidence_interval(level).expect("a level"));
+                if p < interval.lower() {
+                    below += probability;
+                } else if p > interval.upper() {
+                    above += probability;
+                } else {
+                    prop_assert!(interval.contains(p));
                 }
             }
             let most = (1.0 - level) / 2.0 + left + bound("inference", "enumeration");
