@@ -36,6 +36,7 @@ impl Run<Bernoulli> {
             self.samples += trials;
             self.statistic.add(successes, trials - successes, self.test.family());
             if self.samples >= self.next_look {
+                self.postponed |= self.samples > self.next_look;
                 self.look();
             }
         }

@@ -6,5 +6,6 @@ pub mod ilv;
 #[cfg(feature = "sphere")]
 pub mod solid_angle;
 pub mod sprt;
+pub mod sprt_inference;
 #[cfg(feature = "sphere")]
 pub mod voronoi;
