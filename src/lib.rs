@@ -66,3 +66,7 @@ pub mod voronoi;
 #[cfg(all(doctest, feature = "ilv"))]
 #[doc = include_str!("../README.md")]
 struct Readme;
+
+#[cfg(doctest)]
+#[doc = include_str!("../docs/sprt.md")]
+struct SprtPage;

@@ -34,7 +34,7 @@ impl Run<Bernoulli> {
                 return Err(CountsError::Trials { samples: self.samples, trials });
             }
             self.samples += trials;
-            self.statistic.add(successes, trials - successes, self.test.family());
+            self.statistic.successes += successes;
             if self.samples >= self.next_look {
                 self.postponed |= self.samples > self.next_look;
                 self.look();
@@ -63,8 +63,7 @@ impl Run<Bernoulli> {
             block = block.min(left);
             if block > 1 && self.takes_whole(bits, block) {
                 self.samples += u64::from(block);
-                let gained = ones(bits, block);
-                self.statistic.add(gained, u64::from(block) - gained, self.test.family());
+                self.statistic.successes += ones(bits, block);
                 if self.samples >= self.next_look {
                     self.next_look = self.test.look_after(self.samples);
                 }

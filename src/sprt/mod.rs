@@ -32,7 +32,8 @@
 //! ```
 //!
 //! # Not here
-//! The random generator that simulates a test is the caller's.
+//! The random generator that simulates a test is the caller's. How to choose a limit, how to read the curves, what
+//! everything costs, and what other libraries do: docs/sprt.md, whose numbers tests/sprt_page.rs holds.
 //!
 //! # Source
 //! Wald (1945), Sequential Tests of Statistical Hypotheses, Annals of Mathematical Statistics 16; Wald (1947),

@@ -30,7 +30,7 @@ impl<'de> Deserialize<'de> for Run<Bernoulli> {
             ));
         }
         let mut run = test.start();
-        run.statistic.add(successes, samples - successes, test.family());
+        run.statistic.successes = successes;
         let decision = test.family().decide(samples, &run.statistic, test.bounds());
         let is_look = samples > 0 && test.look_after(samples - 1) == samples;
         let agrees = match step {
