@@ -10,7 +10,7 @@ use steradian::{
     ilv::{AdaptiveSampler, Cache, Frame, Sample, Validity},
 };
 
-/// Radiance 1 + x + y z over the hemisphere about z: E = π and Φ = (2π/3, 0, π) plus the part of y z, which has none.
+/// Radiance 1 + x + y z over the hemisphere about z: E = π.
 fn sky(direction: DVec3) -> Sample {
     Sample { radiance: DVec3::splat(1.0 + direction.x + direction.y * direction.z), distance: 1.0 }
 }

@@ -25,7 +25,8 @@
 //! take the caller's.
 //!
 //! # Laws of the whole crate
-//! (1) Bad input is a typed error: no panic, no NaN out, no endless loop. Fuzzed, and tested module by module.
+//! (1) What cannot be answered is a typed error: no panic, no NaN where none was given, no endless loop. Tested module by
+//!     module; `sprt`, `voronoi` and `ilv` are fuzzed.
 //! (2) The geometry uses correctly rounded transcendental functions only: the same input gives the same bits on every
 //!     machine, thread count and optimisation level (`tests/values.rs`, `tests/pipeline.rs`).
 //! (3) No `unsafe` code.
@@ -39,7 +40,7 @@
 //! | `libm` | | logarithms without the standard library, for `sprt` under `no_std` with `alloc` |
 //! | `sphere` | yes | [`solid_angle`], [`voronoi`]; depends on glam and pxfm, needs `std` |
 //! | `ilv` | yes | [`ilv`]; depends on rand's traits and rstar |
-//! | `serde` | | `Serialize` and `Deserialize` of the data types |
+//! | `serde` | | `Serialize` and `Deserialize` of tests, runs and options |
 //!
 //! With `default-features = false, features = ["std"]` the crate is the sequential test alone, without any dependency.
 #![cfg_attr(not(feature = "std"), no_std)]

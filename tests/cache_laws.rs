@@ -1,9 +1,11 @@
 //! Law: a cache answers by its records where they are valid, and nowhere else.
+#![cfg(feature = "ilv")]
 
 mod bounds;
 mod seeds;
 
-use bounds::ilv::{CACHE_SUM, DISTANCE};
+use approx::assert_relative_eq;
+use bounds::ilv::{CACHE_RECORD, CACHE_SUM, DISTANCE};
 use proptest::prelude::*;
 use rand::RngExt;
 use rand_pcg::Pcg64;
@@ -136,8 +138,32 @@ fn a_record_answers_for_its_own_place() {
     let (at, stored) = (DVec3::new(3.0, -2.0, 1.0), vector(DVec3::Z, 1.0, &mut rng));
     let mut cache = Cache::new(Validity::new(0.3, 0.1, 1.0).unwrap());
     cache.insert(at, DVec3::Z, stored).unwrap();
-    assert_eq!(cache.irradiance(at, DVec3::Z), Some(stored.irradiance()));
+    let (got, want) = (cache.irradiance(at, DVec3::Z).expect("a record"), stored.irradiance());
+    for axis in 0..3 {
+        assert_relative_eq!(got[axis], want[axis], max_relative = CACHE_RECORD);
+    }
     assert_eq!(cache.len(), 1);
+    // However small the accuracy, and though a normal is a little off.
+    for (accuracy, length) in [(1e-12, 1.0), (1e-300, 1.0), (1e-4, 1.0 + 4e-7), (1e-4, 1.0 - 4e-7)] {
+        let mut cache = Cache::new(Validity::new(accuracy, 0.1, 1.0).unwrap());
+        let normal = DVec3::new(0.36, 0.48, 0.8) * length;
+        cache.insert(at, normal, stored).unwrap();
+        assert!(cache.irradiance(at, normal).is_some(), "{accuracy} {length}");
+    }
+}
+
+#[test]
+fn a_relaxed_lookup_reaches_the_stated_factor_further_and_no_more() {
+    let mut cache = Cache::new(Validity::new(0.3, 1.0, 1.0).unwrap());
+    cache.insert(DVec3::ZERO, DVec3::Z, vector(DVec3::Z, 1.0, &mut seeds::rng(4))).unwrap();
+    let answers = |x: f64| {
+        let at = DVec3::new(x, 0.0, 0.0);
+        [cache.irradiance(at, DVec3::Z).is_some(), cache.irradiance_relaxed(at, DVec3::Z).is_some()]
+    };
+    assert_eq!(
+        [answers(0.299), answers(0.301), answers(0.419), answers(0.421)],
+        [[true, true], [false, true], [false, true], [false, false]]
+    );
 }
 
 #[test]
@@ -169,7 +195,7 @@ fn what_is_no_place_is_refused_when_stored_and_unanswered_when_asked_for() {
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 11.0] {
         assert!(matches!(Validity::new(bad, 0.1, 1.0), Err(ValidityError::Accuracy { .. })), "{bad}");
     }
-    for (low, high) in [(0.0, 1.0), (2.0, 1.0), (f64::NAN, 1.0), (0.1, f64::INFINITY), (0.1, f64::NAN)] {
+    for (low, high) in [(0.0, 1.0), (2.0, 1.0), (f64::NAN, 1.0), (0.1, f64::MAX), (0.1, f64::NAN)] {
         assert!(matches!(Validity::new(0.3, low, high), Err(ValidityError::Radius { .. })), "{low} {high}");
     }
     assert!(matches!(Validity::for_scene(0.3, f64::NAN), Err(ValidityError::Radius { .. })));

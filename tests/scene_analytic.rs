@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 
 use rand::RngExt;
 use steradian::glam::{DVec3, dvec3};
-use steradian::ilv::RadianceSource;
+use steradian::ilv::{AdaptiveSampler, Frame, RadianceSource};
 use tracer::{Scene, SceneSource, bounds, cosine_stratified, random_direction, random_point};
 
 /// Irradiance of an element at the distance `c` before the corner of a parallel rectangle `a` × `b` of unit radiance.
@@ -148,6 +148,19 @@ fn cube_has_the_irradiances_of_its_radiosity() {
         let mut source = SceneSource::new(&scene, position, 2);
         let got = cosine_stratified(&mut source, normal, 256, &mut rng).x;
         close(got, reflected, bounds::CUBE_ONE_BOUNCE * reflected, &format!("one bounce at {position}"));
+        // The crate's own samplers: one ray a cell, and the adaptive one, whose bias is part of its bound.
+        let frame = Frame::new(normal).expect("a unit vector");
+        let stratified = AdaptiveSampler::stratified(65_536).expect("a grid");
+        let gather = stratified.gather(frame, &mut source, &mut rng).expect("a bounded field");
+        let off = bounds::CUBE_ONE_BOUNCE * reflected;
+        close(gather.vector().irradiance().x, reflected, off, &format!("stratified at {position}"));
+        let mut mean = 0.0;
+        for _ in 0..bounds::CUBE_GATHERS {
+            let gather = AdaptiveSampler::default().gather(frame, &mut source, &mut rng).expect("a bounded field");
+            mean += gather.vector().irradiance().x / f64::from(bounds::CUBE_GATHERS);
+        }
+        println!("default at {position}: {:+.4}", mean / reflected - 1.0);
+        close(mean, reflected, bounds::CUBE_DEFAULT * reflected, &format!("default at {position}"));
         assert_eq!(source.shadow_rays, 0, "nothing stands in the cube");
     }
 }

@@ -1,4 +1,5 @@
 //! Law: the published formulas and the plain tier agree with the compensated kernel on well-conditioned polygons.
+#![cfg(feature = "sphere")]
 
 mod bounds;
 mod seeds;

@@ -1,4 +1,5 @@
 //! Law: solid angles and vector moments do not depend on where a loop starts, add up, and change sign with its direction.
+#![cfg(feature = "sphere")]
 
 mod bounds;
 mod seeds;

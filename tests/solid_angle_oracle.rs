@@ -1,4 +1,5 @@
 //! Law: the solid angle and the vector moment of every polygon of the oracles are the exact values within the bound of the class.
+#![cfg(feature = "sphere")]
 
 mod bounds;
 #[path = "oracles/decimal.rs"]

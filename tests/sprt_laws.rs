@@ -5,10 +5,10 @@ mod bounds;
 mod invariants;
 mod seeds;
 
-use bounds::sprt::bound;
+use bounds::sprt::{WALD_IDENTITY, bound};
 use proptest::prelude::*;
 use rand::RngExt as _;
-use steradian::sprt::{Bernoulli, Bounds, Characteristic, Looks, Sprt};
+use steradian::sprt::{Bernoulli, Bounds, Characteristic, Decision, Looks, Sprt, Step};
 
 /// Any test short enough to be exact about.
 fn test() -> impl Strategy<Value = Sprt<Bernoulli>> {
@@ -135,6 +135,44 @@ proptest! {
 }
 
 /// With p₁ = 1 − p₀ and A = 1/B = ((1 − p₀)/p₀)ᵏ, the test is a walk between −k and k.
+/// Successes with which a test that looks every time stops at `n` with `decision`: the nearest to the undecided ones.
+fn successes_at(test: &Sprt<Bernoulli>, n: u64, decision: Decision) -> u64 {
+    let look = test.looks(Looks::from(u32::try_from(n).expect("a short test")));
+    let mut stops =
+        (0..=n).filter(|&s| look.start().push_counts(s, n).expect("s is at most n") == Step::Stop(decision));
+    let rising = test.family().p1() > test.family().p0();
+    let nearest = if rising == (decision == Decision::RejectH0) { stops.next() } else { stops.next_back() };
+    nearest.expect("the law has a point here")
+}
+
+proptest! {
+    #![proptest_config(seeds::config(24))]
+
+    #[test]
+    fn walds_identities(p0 in 0.1..0.9_f64, p1 in 0.1..0.9_f64, alpha in 0.02..0.4_f64, p in 0.05..0.95_f64) {
+        prop_assume!((p0 - p1).abs() > 0.15);
+        let test = Sprt::new(Bernoulli::new(p0, p1).unwrap(), Bounds::from_risks(alpha, 0.1).unwrap());
+        let exact = exact(&test, p);
+        let (success, failure) = (test.family().success_increment(), test.family().failure_increment());
+        // E[LLR at N] = E[N] E[Z], and E[(S − pN)²] = p(1 − p) E[N] for the number S of successes.
+        let (mut ratio, mut size, mut square) = (0.0, 0.0, 0.0);
+        for point in exact.law() {
+            for (decision, weight) in [(Decision::AcceptH0, point.accept), (Decision::RejectH0, point.reject)] {
+                if weight > 0.0 {
+                    let (n, s) = (point.samples as f64, successes_at(&test, point.samples, decision) as f64);
+                    ratio += weight * (s * success + (n - s) * failure);
+                    size += weight * (s * success.abs() + (n - s) * failure.abs());
+                    square += weight * (s - p * n) * (s - p * n);
+                }
+            }
+        }
+        let want = exact.mean_samples() * (p * success + (1.0 - p) * failure);
+        prop_assert!((ratio - want).abs() <= WALD_IDENTITY * size, "first: {ratio} {want}");
+        let want = exact.mean_samples() * p * (1.0 - p);
+        prop_assert!((square - want).abs() <= WALD_IDENTITY * (want + 1.0), "second: {square} {want}");
+    }
+}
+
 #[test]
 fn gamblers_ruin_has_its_closed_form() -> Result<(), Box<dyn std::error::Error>> {
     for p0 in [0.1, 0.2, 0.25, 0.4, 1.0 / 3.0] {

@@ -30,6 +30,16 @@ fn a_run_can_be_put_away_and_taken_up() -> Result<(), Failure> {
 }
 
 #[test]
+fn a_postponed_look_is_remembered() -> Result<(), Failure> {
+    for trials in [9, 14] {
+        let mut run = Sprt::new(Bernoulli::new(0.1, 0.3)?, Bounds::from_risks(0.05, 0.1)?).start();
+        let _ = run.push_counts(4, trials)?; // rejects at 9, goes on at 14
+        assert_eq!(serde_json::from_str::<Run<Bernoulli>>(&serde_json::to_string(&run)?)?, run);
+    }
+    Ok(())
+}
+
+#[test]
 fn a_test_comes_back_the_same() -> Result<(), Failure> {
     for test in [test()?, Sprt::new(Bernoulli::new(0.9, 0.2)?, Bounds::from_ratios(3.0, 0.5)?)] {
         let text = serde_json::to_string(&test)?;

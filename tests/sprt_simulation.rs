@@ -1,18 +1,20 @@
 //! Law: simulated runs accept, reject, stay undecided and last as the exact characteristic says.
 //!
 //! H0: each of the `RUNS` runs of a design is an independent draw from the exact law. Two-sided tests: binomial for
-//! the three counts, normal with the exact variance for the mean sample size. Suite-wide alpha 1e-6; this file takes
-//! 1e-8 of it, shared equally by its `TESTS` comparisons.
+//! the three counts, normal with the exact variance for the mean sample size, and Kolmogorov–Smirnov for the whole law
+//! of the sample size, with the critical distance √(ln(2/α)/2n) of Dvoretzky, Kiefer, Wolfowitz and Massart, which holds
+//! for every n and for discrete laws. Suite-wide alpha 1e-6; this file takes 1e-8 of it, shared equally by its `TESTS`
+//! comparisons.
 
 mod seeds;
 
 use rand::RngExt as _;
 use statrs::distribution::{Binomial, ContinuousCDF, DiscreteCDF, Normal};
-use steradian::sprt::{Bernoulli, Bounds, Decision, Looks, Sprt, Step};
+use steradian::sprt::{Bernoulli, Bounds, Characteristic, Decision, Looks, Sprt, Step};
 
-const RUNS: u32 = 400_000;
+const RUNS: u32 = 1_000_000;
 const ALPHA: f64 = 1e-8;
-const TESTS: f64 = 5.0 * 4.0;
+const TESTS: f64 = 5.0 * 5.0;
 
 type Failure = Box<dyn std::error::Error>;
 
@@ -49,6 +51,24 @@ fn check_count(label: &str, count: u64, probability: f64, runs: u64, alpha: f64)
     Ok(())
 }
 
+/// Largest difference between the share of runs that stopped by n, and its probability.
+fn kolmogorov_smirnov(stopped: &[u32], exact: &Characteristic) -> f64 {
+    let runs: f64 = stopped.iter().map(|&count| f64::from(count)).sum();
+    let last = stopped.len() - 1;
+    let (mut by_now, mut probability, mut distance) = (0.0, 0.0, 0.0_f64);
+    let mut law = exact.law().iter().peekable();
+    for (n, &count) in stopped.iter().enumerate() {
+        by_now += f64::from(count);
+        while let Some(point) = law.next_if(|point| point.samples <= n as u64) {
+            probability += point.accept + point.reject;
+        }
+        // What is undecided stops at the limit.
+        let at_the_limit = if n == last { exact.undecided() } else { 0.0 };
+        distance = distance.max((by_now / runs - probability - at_the_limit).abs());
+    }
+    distance
+}
+
 #[test]
 fn simulated_runs_follow_the_exact_law() -> Result<(), Failure> {
     let (alpha, runs) = (ALPHA / TESTS, seeds::cases(RUNS));
@@ -57,6 +77,7 @@ fn simulated_runs_follow_the_exact_law() -> Result<(), Failure> {
         let exact = test.characteristic(p)?;
         let mut rng = seeds::rng(stream as u64);
         let (mut accepted, mut rejected, mut undecided, mut samples) = (0, 0, 0, 0);
+        let mut stopped = vec![0_u32; 1];
         for _ in 0..runs {
             let mut run = test.start();
             while run.push(rng.random_bool(p)) == Step::Continue {}
@@ -66,12 +87,18 @@ fn simulated_runs_follow_the_exact_law() -> Result<(), Failure> {
                 None => undecided += 1,
             }
             samples += run.samples();
+            let n = usize::try_from(run.samples())?;
+            stopped.resize(stopped.len().max(n + 1), 0);
+            stopped[n] += 1;
         }
         let label = |what| format!("design {stream}, p = {p}: {what}");
         check_count(&label("accepted"), accepted, exact.accept(), runs.into(), alpha)?;
         check_count(&label("rejected"), rejected, exact.reject(), runs.into(), alpha)?;
         check_count(&label("undecided"), undecided, exact.undecided(), runs.into(), alpha)?;
         let n = f64::from(runs);
+        let distance = kolmogorov_smirnov(&stopped, &exact);
+        let largest = ((2.0 / alpha).ln() / (2.0 * n)).sqrt();
+        assert!(distance <= largest, "{}: {distance}, critical {largest}, seed {}", label("law"), seeds::seed());
         let z = (samples as f64 / n - exact.mean_samples()) / (exact.variance_samples() / n).sqrt();
         assert!(z.abs() <= critical, "{}: z = {z}, critical {critical}, seed {}", label("mean"), seeds::seed());
     }

@@ -1,4 +1,5 @@
 //! Law: cells are those of an exact brute force with 512 bits, on the hard cases of tests/oracles/voronoi.json.
+#![cfg(feature = "sphere")]
 
 use bounds::voronoi::{MERGED_BY_THE_ORACLE, bound};
 use serde::Deserialize;

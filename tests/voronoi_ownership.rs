@@ -1,4 +1,5 @@
 //! Law: a cell is what is nearest to its site, whatever the order, the lengths and the orientation of the sites.
+#![cfg(feature = "sphere")]
 
 use std::f64::consts::PI;
 

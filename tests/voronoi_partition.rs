@@ -1,4 +1,5 @@
 //! Law: cells partition the sphere or the hemisphere: solid angles sum to 4π or 2π, vector moments to 0 or π times the pole.
+#![cfg(feature = "sphere")]
 
 use std::f64::consts::{PI, TAU};
 

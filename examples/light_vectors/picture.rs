@@ -21,6 +21,8 @@ pub const LARGEST_ERROR: f64 = 0.3;
 const BACKGROUND: Rgb<u8> = Rgb([24, 24, 24]);
 const MARGIN: u32 = 12;
 const LINE: u32 = 18;
+/// Captions and scales need this much room, whatever the size of the pictures.
+const NARROWEST: u32 = 200;
 
 /// The factor that brings the 99th percentile of the luminance to 1.
 pub fn exposure(radiances: &[DVec3]) -> f64 {
@@ -53,7 +55,8 @@ pub fn error_map(size: u32, error: impl Fn(usize) -> f64) -> RgbImage {
 
 /// An error map with the scale of its colours under it.
 pub fn with_scale(map: &RgbImage) -> RgbImage {
-    let (width, height) = map.dimensions();
+    let height = map.height();
+    let width = map.width().max(NARROWEST);
     let mut sheet = RgbImage::from_pixel(width, height + 3 * LINE, BACKGROUND);
     imageops::replace(&mut sheet, map, 0, 0);
     draw_scale(&mut sheet, MARGIN, height + 4, width - 2 * MARGIN);
@@ -70,8 +73,7 @@ pub struct Column {
 /// Every method beside the others: picture, indirect light, error.
 pub fn contact_sheet(title: &str, columns: &[Column]) -> RgbImage {
     let Some(side) = columns.first().map(|column| column.pictures[0].width()) else { return RgbImage::new(1, 1) };
-    // Long captions need room whatever the size of the pictures.
-    let pitch = side.max(200) + MARGIN;
+    let pitch = side.max(NARROWEST) + MARGIN;
     let top = MARGIN + 4 * LINE;
     let rows = [("picture", 0), ("indirect light", 1), ("|error| of indirect luminance", 2)];
     let width = MARGIN + columns.len() as u32 * pitch;
@@ -90,7 +92,7 @@ pub fn contact_sheet(title: &str, columns: &[Column]) -> RgbImage {
             imageops::replace(&mut sheet, &column.pictures[row], i64::from(x), i64::from(y + LINE));
         }
     }
-    draw_scale(&mut sheet, MARGIN, height - 3 * LINE, side.max(200));
+    draw_scale(&mut sheet, MARGIN, height - 3 * LINE, side.max(NARROWEST));
     sheet
 }
 

@@ -1,4 +1,4 @@
-//! Progress on a terminal; nothing when the output is piped.
+//! Progress on the standard error if that is a terminal, and nothing otherwise.
 
 use indicatif::{ProgressBar, ProgressStyle};
 

@@ -21,7 +21,8 @@ pub struct Row {
     pub light_vectors: u64,
     pub rays_per_light_vector: Option<f64>,
     pub rays: u64,
-    /// Root mean squared error of the indirect luminance over its mean, noise of the reference taken off.
+    /// Root mean squared error of the indirect luminance over its mean, noise of the reference taken off; 0 where it drowns
+    /// in that noise.
     pub relative_rmse: f64,
     /// Mean error of the indirect luminance over its mean.
     pub relative_bias: f64,
@@ -83,9 +84,9 @@ impl Deviation {
 
 /// The table of one scene, as text.
 pub fn text(rows: &[Row]) -> String {
-    let percent = |x: f64, signed: bool| {
-        if signed { format!("{:+.2} %", 100.0 * x) } else { format!("{:.2} %", 100.0 * x) }
-    };
+    let percent = |x: f64| format!("{:+.2} %", 100.0 * x);
+    // A square below zero means that the error drowns in the noise of the reference.
+    let error = |x: f64| if x > 0.0 { format!("{:.2} %", 100.0 * x) } else { "< noise".to_owned() };
     let patch = rows.iter().any(|row| row.shadow_patch_relative_rmse.is_some());
     let mut text = format!(
         "{:<11} {:>7} {:>7} {:>10} {:>11} {:>10} {:>9}",
@@ -105,11 +106,11 @@ pub fn text(rows: &[Row]) -> String {
             vectors,
             per_vector,
             row.rays,
-            percent(row.relative_rmse, false),
-            percent(row.relative_bias, true)
+            error(row.relative_rmse),
+            percent(row.relative_bias)
         );
         if let (Some(rmse), Some(bias)) = (row.shadow_patch_relative_rmse, row.shadow_patch_relative_bias) {
-            text += &format!(" {:>11} {:>11}", percent(rmse, false), percent(bias, true));
+            text += &format!(" {:>11} {:>11}", error(rmse), percent(bias));
         }
         text.push('\n');
     }

@@ -9,7 +9,7 @@ use crate::float;
 /// A right-handed orthonormal frame whose third axis is the surface normal.
 ///
 /// # Accuracy
-/// The axes are unit and orthogonal to within 4 ulp (searched over 10⁶ normals; worst seen 4.5e-16).
+/// The axes are unit to 4e-16 and orthogonal to 1e-15; worst seen 3.3e-16 and 6.4e-16 over 3·10⁶ normals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     tangent: DVec3,
@@ -83,7 +83,7 @@ impl Frame {
 
     /// The same frame turned by `angle` radians about its normal.
     #[must_use]
-    pub fn rotated(&self, angle: f64) -> Self {
+    pub(super) fn rotated(&self, angle: f64) -> Self {
         let (sin, cos) = float::sin_cos(angle);
         Self {
             tangent: self.tangent * cos + self.bitangent * sin,
@@ -96,6 +96,12 @@ impl Frame {
     #[must_use]
     pub fn normal(&self) -> DVec3 {
         self.normal
+    }
+
+    /// The components of `world` along tangent, bitangent and normal.
+    #[must_use]
+    pub fn to_local(&self, world: DVec3) -> DVec3 {
+        DVec3::new(self.tangent.dot(world), self.bitangent.dot(world), self.normal.dot(world))
     }
 
     /// The vector with components `local` along tangent, bitangent and normal.

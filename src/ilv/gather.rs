@@ -8,11 +8,8 @@ use glam::DVec3;
 use rand::{Rng, RngExt};
 
 use super::{
-    AdaptiveSampler, Cell, Frame, LightVector, Points, RadianceSource, Refinement,
-    cell::Coordinates,
-    luminance,
-    refinement::Homogeneity,
-    weights::{self, Weighing},
+    AdaptiveSampler, Cell, Frame, LightVector, Points, RadianceSource, Refinement, Weights, cell::Coordinates,
+    luminance, refinement::Homogeneity, weights::Weighing,
 };
 use crate::{sprt::Decision, voronoi::VoronoiError};
 
@@ -71,7 +68,7 @@ pub struct Gather {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum GatherError {
-    /// The source answered with a negative, infinite or NaN radiance.
+    /// The source answered with a radiance outside [0, [`Gather::BRIGHTEST`]].
     Radiance {
         /// Direction of the ray.
         direction: DVec3,
@@ -85,15 +82,18 @@ pub enum GatherError {
         /// What the source answered.
         distance: f64,
     },
-    /// The reflectance function answered with a negative, infinite or NaN value.
+    /// The reflectance function answered with a value outside [0, [`Gather::BRIGHTEST`]].
     Reflectance {
         /// Direction of the ray.
         direction: DVec3,
         /// What the function answered.
         reflectance: DVec3,
     },
-    /// The radiances are finite but their sum is not.
-    Overflow,
+    /// The sampler may take more rays than a Voronoi diagram should have, [`Gather::MAX_SITES`].
+    TooManySites {
+        /// The most rays that the sampler takes.
+        rays: u64,
+    },
     /// The Voronoi diagram of the rays failed.
     Voronoi(VoronoiError),
 }
@@ -102,7 +102,7 @@ impl fmt::Display for GatherError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Radiance { direction, radiance } => {
-                write!(f, "the radiance {radiance} from {direction} is not a finite colour of at least zero")
+                write!(f, "the radiance {radiance} from {direction} is not in [0, {:e}]", Gather::BRIGHTEST)
             }
             Self::Distance { direction, distance } => {
                 write!(f, "the distance {distance} towards {direction} is not at least zero")
@@ -113,7 +113,9 @@ impl fmt::Display for GatherError {
                     "the reflectance {reflectance} for light from {direction} is not a finite colour of at least zero"
                 )
             }
-            Self::Overflow => write!(f, "the sum of the radiances overflows"),
+            Self::TooManySites { rays } => {
+                write!(f, "a gather with Voronoi weights may take {rays} rays, above {}", Gather::MAX_SITES)
+            }
             Self::Voronoi(error) => write!(f, "the Voronoi diagram of the rays failed: {error}"),
         }
     }
@@ -122,6 +124,13 @@ impl fmt::Display for GatherError {
 impl core::error::Error for GatherError {}
 
 impl Gather {
+    /// The largest radiance and the largest reflectance, colour by colour: sums of their squares are still numbers.
+    pub const BRIGHTEST: f64 = 1e75;
+
+    /// The most rays that a gather with Voronoi weights may be allowed; a diagram of that many takes some minutes, one of
+    /// a thousand some milliseconds.
+    pub const MAX_SITES: u64 = 1 << 17;
+
     /// The frame of the gather: the caller's, turned by a random angle about the normal.
     #[must_use]
     pub fn frame(&self) -> &Frame {
@@ -177,9 +186,13 @@ impl AdaptiveSampler {
     ) -> Result<Gather, GatherError>
     where
         S: RadianceSource + ?Sized,
-        B: Fn(DVec3) -> DVec3,
+        B: FnMut(DVec3) -> DVec3,
         R: Rng + ?Sized,
     {
+        let most = self.most_rays();
+        if self.weights != Weights::LeafMeasure && most > Gather::MAX_SITES {
+            return Err(GatherError::TooManySites { rays: most });
+        }
         let frame = frame.rotated(core::f64::consts::TAU * rng.random::<f64>());
         let mut tracing = Tracing { frame, points: self.points, source, reflectance, rng, shots: Vec::new() };
         let leaves = match &self.refinement {
@@ -196,11 +209,6 @@ impl AdaptiveSampler {
             Weighing { weights: self.weights, sectors: self.grid[1] as usize, frame: &frame, leaves: &leaves };
         weighing.assign(&mut rays).map_err(GatherError::Voronoi)?;
         let vector = weighing.light_vector(&rays);
-        let finite = vector.irradiance().is_finite() && vector.vector_irradiance().is_finite();
-        if !(finite && vector.standard_error().is_finite()) {
-            return Err(GatherError::Overflow);
-        }
-        debug_assert!(weights::agree(&vector, frame.normal()));
         Ok(Gather { frame, cells: leaves.cells, rays, vector })
     }
 
@@ -269,7 +277,7 @@ struct Tracing<'a, S: ?Sized, B, R: ?Sized> {
 impl<S, B, R> Tracing<'_, S, B, R>
 where
     S: RadianceSource + ?Sized,
-    B: Fn(DVec3) -> DVec3,
+    B: FnMut(DVec3) -> DVec3,
     R: Rng + ?Sized,
 {
     fn branch(&mut self, cell: Cell, rays: Vec<u32>, tested: usize) -> Branch {
@@ -395,7 +403,7 @@ where
 }
 
 fn is_colour(rgb: DVec3) -> bool {
-    rgb.is_finite() && rgb.min_element() >= 0.0
+    rgb.to_array().iter().all(|x| (0.0..=Gather::BRIGHTEST).contains(x))
 }
 
 /// The next point of the R2 sequence: multiples of the inverse of the plastic number and of its square, modulo 1.

@@ -4,6 +4,9 @@ use core::fmt;
 
 use crate::sprt::{Bernoulli, Bounds, Decision, Looks, Run, Sprt, Step};
 
+/// A logarithm of the likelihood ratio this near to zero is a tie: far above the rounding of 2¹⁶ increments, far below one.
+const TIE: f64 = 1e-9;
+
 /// What the children of a split cell start from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -132,12 +135,14 @@ impl Refinement {
 
     /// The test of the paper: α = 0.44, β = 0.55, p0 = 0.4, p1 = 0.6, looks after 10 rays and every 2 from there to 100,
     /// band 25 %, three splits.
-    pub(super) fn paper() -> Self {
+    #[must_use]
+    pub fn paper() -> Self {
         Self::preset(0.44, 0.55)
     }
 
     /// The same schedule at nominal risks of 0.1 and for cells that carry at least a tenth of the irradiance.
-    pub(super) fn controlled() -> Self {
+    #[must_use]
+    pub fn controlled() -> Self {
         Self { contribution: 0.1, ..Self::preset(0.1, 0.1) }
     }
 
@@ -214,7 +219,7 @@ impl Homogeneity {
             Step::Stop(decision) => self.verdict = Some(decision),
             // At the truncation the likelier hypothesis wins; a tie splits.
             Step::Exhausted => {
-                let towards_split = self.run.log_likelihood_ratio() >= 0.0;
+                let towards_split = self.run.log_likelihood_ratio() >= -TIE;
                 self.verdict = Some(if towards_split { Decision::RejectH0 } else { Decision::AcceptH0 });
             }
         }
@@ -223,5 +228,56 @@ impl Homogeneity {
     /// The verdict, once there is one: rejecting H0 asks for a split.
     pub(super) fn verdict(&self) -> Option<Decision> {
         self.verdict
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn presets_are_what_their_documentation_says() {
+        let paper = Refinement::paper();
+        assert_eq!((paper.test.family().p0(), paper.test.family().p1()), (0.4, 0.6));
+        assert!((paper.test.bounds().upper() - 45.0 / 44.0).abs() < 1e-15);
+        assert!((paper.test.bounds().lower() - 55.0 / 56.0).abs() < 1e-15);
+        let looks = paper.test.look_schedule();
+        assert_eq!((looks.first(), looks.step(), paper.test.truncation()), (10, 2, Some(100)));
+        assert_eq!((paper.batch, paper.band, paper.depth), (10, 0.25, 3));
+        assert_eq!((paper.reuse, paper.contribution), (Reuse::Inherit, 0.0));
+        let controlled = Refinement::controlled();
+        assert!((controlled.test.bounds().upper() - 9.0).abs() < 1e-14);
+        assert!((controlled.test.bounds().lower() - 1.0 / 9.0).abs() < 1e-16);
+        assert_eq!((controlled.batch, controlled.depth, controlled.contribution), (10, 3, 0.1));
+    }
+
+    #[test]
+    fn what_is_no_rule_is_refused() {
+        let test = *Refinement::paper().test();
+        let untruncated = Sprt::new(*test.family(), *test.bounds());
+        assert_eq!(Refinement::new(untruncated, 0.25, 3).unwrap_err(), RefinementError::Untruncated);
+        let long = Refinement::new(test.truncate(1 << 17), 0.25, 3).unwrap_err();
+        assert_eq!(long, RefinementError::TooManyRays { limit: 1 << 17 });
+        for band in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(matches!(Refinement::new(test, band, 3), Err(RefinementError::Band { .. })), "{band}");
+        }
+        assert_eq!(Refinement::new(test, 0.25, 9).unwrap_err(), RefinementError::Depth { depth: 9 });
+        for contribution in [-0.1, f64::NAN, f64::INFINITY] {
+            let refused = Refinement::paper().contribution(contribution);
+            assert!(matches!(refused, Err(RefinementError::Contribution { .. })), "{contribution}");
+        }
+    }
+
+    #[test]
+    fn a_tie_at_the_truncation_splits() {
+        for (p0, p1) in [(0.4, 0.6), (0.2, 0.8), (0.3, 0.7)] {
+            let family = Bernoulli::new(p0, p1).unwrap();
+            let test = Sprt::new(family, Bounds::from_risks(1e-9, 1e-9).unwrap()).looks(Looks::from(10)).truncate(10);
+            let rule = Refinement::new(test, 0.25, 3).unwrap();
+            // The mean is 0.54: five values are in the band of a quarter about it, five are not.
+            let first = [0.5, 0.5, 0.5, 0.5, 0.5, 0.0, 1.0, 0.0, 1.0, 0.9];
+            let homogeneity = Homogeneity::open(&rule, &first);
+            assert_eq!(homogeneity.verdict(), Some(Decision::RejectH0), "{p0} {p1}");
+        }
     }
 }

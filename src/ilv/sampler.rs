@@ -72,6 +72,10 @@ impl core::error::Error for SamplerError {}
 
 impl Default for AdaptiveSampler {
     /// Equal projected solid angles, low-discrepancy points, splits where light is to be gained, Voronoi moments.
+    ///
+    /// It keeps a constant field exact and follows small bright things; but it is biased, by 0.9 % to 1.5 % of the
+    /// irradiance on points of three test scenes, and at equal rays its error there is a tenth to a quarter larger than
+    /// that of [`stratified`](AdaptiveSampler::stratified). Where neither matters more than the other, take the latter.
     fn default() -> Self {
         Self {
             map: CellMap::ProjectedSolidAngle,
@@ -117,8 +121,7 @@ impl AdaptiveSampler {
 
     /// One random ray in each of about `rays` cells of equal *projected* solid angle: E = π/n Σ L.
     ///
-    /// The grid is the one with n = azimuth × zenith nearest to `rays` whose sides are nearest to π : 1
-    /// (208 gives 26 × 8).
+    /// The grid has a product near `rays`, off by at most half a ring, and sides near π : 1: 208 gives 26 × 8.
     ///
     /// # Errors
     /// As [`fixed`](Self::fixed).

@@ -6,18 +6,16 @@ use core::fmt;
 ///
 /// # Model
 /// A record at xᵢ with normal nᵢ and validity radius Rᵢ has, seen from the point x with normal n, the error
-/// ε = |x − xᵢ|/Rᵢ + √(1 − n·nᵢ); it is used where ε < `accuracy`, n·nᵢ ≥ 1/2, and x is not in front of it:
+/// ε = |x − xᵢ|/Rᵢ + √(1 − n·nᵢ), the root computed as |n − nᵢ|/√2; it is used where ε < `accuracy`, n·nᵢ ≥ 1/2, and x is not in front of it:
 /// (x − xᵢ)·(n + nᵢ)/2 ≥ −Rᵢ/100. Its weight 1/ε − 1/`accuracy` fades to zero at the border. Rᵢ is the harmonic mean
 /// distance of the surfaces around, kept between `minimum` and `maximum` and from growing faster than the distance to
 /// another record.
 ///
 /// # Source
-/// Ward, Rubinstein and Clear, *A Ray Tracing Solution for Diffuse Interreflection* (1988), equations 3 to 5, for the
-/// error and the front test; Tabellion and Lamorlette, *An Approximate Global Illumination System for Computer Generated
-/// Films* (2004), for the fading weight; Křivánek, Bouatouch, Pattanaik and Žára, *Making Radiance and Irradiance Caching
-/// Practical* (2006), for the bounded growth.
+/// Ward, Rubinstein and Clear, *A Ray Tracing Solution for Diffuse Interreflection* (1988), for the error and the front
+/// test; Křivánek, Bouatouch, Pattanaik and Žára, *Making Radiance and Irradiance Caching Practical* (2006), for the
+/// bounded growth.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Validity {
     accuracy: f64,
     minimum: f64,
@@ -33,7 +31,7 @@ pub enum ValidityError {
         /// The value as given.
         accuracy: f64,
     },
-    /// The bounds of the radius are not finite with 0 < minimum ≤ maximum.
+    /// The bounds of the radius are not 0 < minimum ≤ maximum ≤ [`Validity::LARGEST_RADIUS`].
     Radius {
         /// The lower bound as given.
         minimum: f64,
@@ -49,7 +47,7 @@ impl fmt::Display for ValidityError {
                 write!(f, "the accuracy must be above 0 and at most {}, got {accuracy}", Validity::LARGEST_ACCURACY)
             }
             Self::Radius { minimum, maximum } => {
-                write!(f, "the radii must be finite with 0 < minimum <= maximum, got {minimum} and {maximum}")
+                write!(f, "the radii must be 0 < minimum <= maximum <= 1e90, got {minimum} and {maximum}")
             }
         }
     }
@@ -61,6 +59,9 @@ impl Validity {
     /// The largest accuracy parameter that is accepted; Ward's values are 0.1 to 0.5, and smaller is more accurate.
     pub const LARGEST_ACCURACY: f64 = 10.0;
 
+    /// The largest validity radius that is accepted: the volumes of boxes that wide are still numbers.
+    pub const LARGEST_RADIUS: f64 = 1e90;
+
     /// The rule with the given accuracy parameter and bounds of the validity radius, in the unit of the scene.
     ///
     /// # Errors
@@ -69,7 +70,7 @@ impl Validity {
         if !(accuracy > 0.0 && accuracy <= Self::LARGEST_ACCURACY) {
             return Err(ValidityError::Accuracy { accuracy });
         }
-        if !(minimum > 0.0 && minimum <= maximum && maximum.is_finite()) {
+        if !(minimum > 0.0 && minimum <= maximum && maximum <= Self::LARGEST_RADIUS) {
             return Err(ValidityError::Radius { minimum, maximum });
         }
         Ok(Self { accuracy, minimum, maximum })

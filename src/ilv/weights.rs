@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use glam::DVec3;
 
-use super::{Cell, CellMap, Frame, LightVector, Ray, gather::Leaves, luminance};
+use super::{Cell, CellMap, Frame, LightVector, Ray, gather::Leaves, luminance, sum::Sum};
 use crate::voronoi::{self, VoronoiError};
 
 /// The part of the hemisphere for which a ray stands, as a vector m: E = Σ L (n·m) and Φ = Σ Y m.
@@ -12,12 +12,20 @@ use crate::voronoi::{self, VoronoiError};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Weights {
     /// An equal share of the ray's leaf: m = ω Ω/n over cells of equal solid angle, the share of the cell's vector moment
-    /// over cells of equal projected solid angle. Unbiased when the cells do not depend on the radiances.
+    /// over cells of equal projected solid angle.
+    ///
+    /// When the cells do not depend on the radiances the irradiance is unbiased, and over cells of equal solid angle so
+    /// is Φ. Over projected ones the tangent part of Φ is that of a field constant over each cell.
     LeafMeasure,
     /// The solid angle A of the ray's Voronoi cell: m = ω A. The paper's choice; in a constant field its irradiance is
     /// too large by about 1/n for n independent rays.
     VoronoiArea,
     /// The vector moment ∫ ω dω of the ray's Voronoi cell. In a constant field it is exact for any set of rays.
+    ///
+    /// In others it is biased, towards what is seen where rays are dense. A rectangle high above, by one ray in each of
+    /// n projected cells: E is too large by 9 % at n = 12, 1.2 % at 72, 0.5 % at 208. On points of the Cornell box and of
+    /// the corridor, at 208 rays: 0.4 % too large, with an error a tenth smaller than by
+    /// [`LeafMeasure`](Self::LeafMeasure).
     VoronoiMoment,
 }
 
@@ -52,10 +60,9 @@ impl Weighing<'_> {
 
     fn share_leaves(&self, rays: &mut [Ray]) {
         let cells = &self.leaves.cells;
-        let is_grid = cells.len() % self.sectors == 0 && cells.iter().all(|cell| cell.depth() == 0);
         let moments: Vec<DVec3> = match cells[0].map() {
             CellMap::SolidAngle => Vec::new(),
-            CellMap::ProjectedSolidAngle if is_grid => Cell::moments_of_grid(cells, self.sectors),
+            CellMap::ProjectedSolidAngle if self.is_grid() => Cell::moments_of_grid(cells, self.sectors),
             CellMap::ProjectedSolidAngle => cells.iter().map(Cell::vector_moment).collect(),
         };
         for (index, members) in self.leaves.members().enumerate() {
@@ -74,64 +81,75 @@ impl Weighing<'_> {
     /// The light vector of weighed rays.
     pub(super) fn light_vector(&self, rays: &[Ray]) -> LightVector {
         let normal = self.frame.normal();
-        let mut irradiance = DVec3::ZERO;
-        let mut vector_irradiance = DVec3::ZERO;
+        let (mut irradiance, mut vector_irradiance) = (Sum::default(), Sum::default());
         let mut weight = 0.0;
         let mut weight_by_distance = 0.0;
         for ray in rays {
             let projected = normal.dot(ray.moment);
-            irradiance += ray.radiance * projected;
-            vector_irradiance += ray.moment * luminance(ray.radiance);
+            irradiance.add(ray.radiance * projected);
+            vector_irradiance.add(ray.moment * luminance(ray.radiance));
             if projected > 0.0 {
                 weight += projected;
                 weight_by_distance += projected / ray.distance;
             }
         }
         LightVector {
-            irradiance,
-            vector_irradiance,
+            irradiance: irradiance.value(),
+            vector_irradiance: vector_irradiance.value(),
             standard_error: self.variance(rays).sqrt(),
             mean_distance: if weight_by_distance > 0.0 { weight / weight_by_distance } else { f64::INFINITY },
             rays: rays.len() as u32,
         }
     }
 
-    /// Estimated variance of the luminance of the irradiance.
+    /// Estimated variance of the luminance of the irradiance; infinite for a single ray.
+    ///
+    /// Leaf by leaf: its measure squared, times the scatter of the light per measure, over its number of rays. A leaf
+    /// with one ray has no scatter, and takes half the squared difference from the mean of a neighbour for it.
     fn variance(&self, rays: &[Ray]) -> f64 {
+        if rays.len() < 2 {
+            return f64::INFINITY;
+        }
         let normal = self.frame.normal();
         let y = |ray: u32| luminance(rays[ray as usize].radiance);
         let w = |ray: u32| normal.dot(rays[ray as usize].moment);
-        // A Voronoi weight varies with the rays but adds up over the cell: only the radiances scatter. An equal share
-        // scatters together with the radiance.
-        let shares = self.weights == Weights::LeafMeasure;
-        let mut variance = 0.0;
-        for members in self.leaves.members().filter(|members| members.len() > 1) {
+        // A Voronoi weight varies with the rays but adds up over the leaf: only the radiances scatter. Over cells of
+        // equal solid angle, an equal share scatters together with the cosine.
+        let cosine_scatters = self.weights == Weights::LeafMeasure && self.leaves.cells[0].map() == CellMap::SolidAngle;
+        let of_leaf = |(cell, members): (&Cell, &[u32])| {
             let n = members.len() as f64;
-            let value = |ray: u32| if shares { y(ray) * w(ray) } else { y(ray) };
-            let scale = if shares { n } else { members.iter().map(|&ray| w(ray)).sum() };
+            let measure =
+                if cosine_scatters { cell.solid_angle() } else { members.iter().map(|&ray| w(ray)).sum::<f64>() };
+            let value = |ray: u32| if cosine_scatters { y(ray) * w(ray) * n / measure } else { y(ray) };
             let mean = members.iter().map(|&ray| value(ray)).sum::<f64>() / n;
-            let scatter: f64 = members.iter().map(|&ray| (value(ray) - mean).powi(2)).sum();
-            variance += scale * scale * scatter / (n * (n - 1.0));
-        }
-        if self.leaves.cells.len() < rays.len() {
-            return variance;
-        }
-        // One ray a cell: each with its successor in the ring, half the squared difference standing for each.
-        for ring in (0..rays.len() as u32).collect::<Vec<_>>().chunks_exact(self.sectors) {
-            for (&here, &there) in ring.iter().zip(ring.iter().cycle().skip(1)) {
-                let difference = if shares {
-                    y(here) * w(here) - y(there) * w(there)
-                } else {
-                    0.5 * (w(here) + w(there)) * (y(here) - y(there))
-                };
-                variance += 0.5 * difference * difference;
-            }
-        }
-        variance
+            let scatter: f64 = members.iter().map(|&ray| (value(ray) - mean) * (value(ray) - mean)).sum();
+            (measure, mean, scatter, n)
+        };
+        let leaves: Vec<_> = self.leaves.cells.iter().zip(self.leaves.members()).map(of_leaf).collect();
+        let ring = if self.is_grid() { self.sectors } else { 1 };
+        let variance = leaves.iter().enumerate().map(|(leaf, &(measure, mean, scatter, n))| {
+            let next = leaves[neighbour(leaf, leaves.len(), ring)].1;
+            let scatter = if n > 1.0 { scatter / (n - 1.0) } else { 0.5 * (mean - next) * (mean - next) };
+            measure * measure * scatter / n
+        });
+        variance.sum()
+    }
+
+    /// Whether the leaves are the cells of the base grid.
+    fn is_grid(&self) -> bool {
+        let cells = &self.leaves.cells;
+        cells.len() % self.sectors == 0 && cells.iter().all(|cell| cell.depth() == 0)
     }
 }
 
-/// Whether n·Φ is the luminance of E, as it must be by construction.
-pub(super) fn agree(vector: &LightVector, normal: DVec3) -> bool {
-    (normal.dot(vector.vector_irradiance()) - vector.luminance()).abs() <= 1e-12 * vector.luminance()
+/// A leaf beside `leaf` of `leaves`: the next one in its ring, or, where a ring has one leaf, the next ring.
+fn neighbour(leaf: usize, leaves: usize, ring: usize) -> usize {
+    let sector = leaf % ring;
+    if ring > 1 {
+        leaf - sector + (sector + 1) % ring
+    } else if leaf + 1 < leaves {
+        leaf + 1
+    } else {
+        leaf.saturating_sub(1)
+    }
 }

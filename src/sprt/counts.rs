@@ -36,6 +36,7 @@ impl Run<Bernoulli> {
             self.samples += trials;
             self.statistic.successes += successes;
             if self.samples >= self.next_look {
+                self.postponed |= self.samples > self.next_look;
                 self.look();
             }
         }

@@ -14,6 +14,9 @@
 //!    analyse is a typed error: tests/sprt_oracle.rs, tests/sprt_simulation.rs
 //! 4. α' ≤ P₁(reject)/A and β' ≤ B·P₀(accept) for the exact risks α' and β', whatever the looks and the limit:
 //!    tests/sprt_laws.rs
+//! 5. Calibrated boundaries keep the exact risks, and no others that do take fewer samples: tests/sprt_calibration.rs
+//! 6. After stopping, p-values, confidence intervals and median-unbiased estimates are exact under the looks and the
+//!    limit of the test: tests/sprt_inference.rs
 //!
 //! # Nominal risks bound nothing
 //! The exact α' can exceed α. Two hypotheses of 0.1 and 0.3, with α = 0.44 and β = 0.55, have a band so narrow,
@@ -39,23 +42,32 @@
 mod approximation;
 mod bernoulli;
 mod bounds;
+mod calibration;
 mod characteristic;
 mod compensated;
 mod counts;
 mod family;
+mod fixed_sample;
+mod inference;
 mod looks;
+mod plan;
 mod recursion;
 mod run;
 mod sequential;
 #[cfg(feature = "serde")]
 mod stored_run;
+mod tails;
 
 pub use approximation::Approximation;
 pub use bernoulli::{Bernoulli, BernoulliError, Counts};
 pub use bounds::{Bounds, BoundsError};
+pub use calibration::{CALIBRATION_ROUNDING, CALIBRATION_WORK, Calibration, CalibrationError};
 pub use characteristic::{CHARACTERISTIC_WORK, Characteristic, CharacteristicError, LawPoint};
 pub use counts::CountsError;
 pub use family::Family;
+pub use fixed_sample::{FixedSample, FixedSampleError};
+pub use inference::{ConfidenceInterval, Inference, InferenceError};
 pub use looks::Looks;
+pub use plan::SamplePlan;
 pub use run::{Decision, Run, Step};
 pub use sequential::{MAX_SAMPLES, Sprt};

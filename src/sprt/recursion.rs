@@ -14,7 +14,7 @@ use super::characteristic::{CharacteristicError, LawPoint};
 use super::{Bernoulli, Decision, Sprt};
 
 /// Work of one observation besides its cells, in cells; it also limits the memory that the law takes.
-const STEP_WORK: u64 = 32;
+pub(super) const STEP_WORK: u64 = 32;
 
 /// Looks between two measurements of the undecided probability.
 const CHECK: u32 = 16;
@@ -26,7 +26,7 @@ const NEGLIGIBLE: f64 = 1e-290;
 const REMAINDER: f64 = f64::EPSILON / 4.0;
 
 /// … where neither counts as less than this.
-const LEAST: f64 = 1e-40;
+pub(super) const LEAST: f64 = 1e-40;
 
 /// What the recursion found.
 pub(super) struct Outcome {
@@ -43,11 +43,11 @@ pub(super) struct Outcome {
 /// The undecided probabilities after some number of observations.
 ///
 /// A *hit* is the outcome that raises the ratio: a success if `p1 > p0`, else a failure.
-struct Walk {
+pub(super) struct Walk {
     /// The cells in use are `cells[start..]`; `cells[start]` is the one of `base` hits.
     cells: Vec<f64>,
-    start: usize,
-    base: u64,
+    pub(super) start: usize,
+    pub(super) base: u64,
     hit: f64,
     miss: f64,
     /// What rounding took from the probability of a hit, and of a miss, relative to it: one of them is `1 − p`.
@@ -57,7 +57,7 @@ struct Walk {
 
 impl Walk {
     /// A walk whose hits are the successes, of probability `p`, or else the failures.
-    fn new(p: f64, rising: bool) -> Self {
+    pub(super) fn new(p: f64, rising: bool) -> Self {
         let mut cells = Vec::with_capacity(64);
         cells.push(1.0);
         let q = 1.0 - p;
@@ -68,18 +68,18 @@ impl Walk {
 
     /// The probability of `cell`, at `hits` hits, with what rounding took from the probabilities of its outcomes.
     #[inline]
-    fn restored(&self, cell: f64, hits: u64, samples: u64) -> f64 {
+    pub(super) fn restored(&self, cell: f64, hits: u64, samples: u64) -> f64 {
         let lost = hits as i64 as f64 * self.hit_lost + (samples - hits) as i64 as f64 * self.miss_lost;
         cell + cell * lost
     }
 
-    fn live(&self) -> &[f64] {
+    pub(super) fn live(&self) -> &[f64] {
         &self.cells[self.start..]
     }
 
     /// One observation.
     #[inline]
-    fn advance(&mut self) {
+    pub(super) fn advance(&mut self) {
         let mut risen = 0.0;
         for cell in &mut self.cells[self.start..] {
             let here = *cell;
@@ -96,7 +96,7 @@ impl Walk {
 
     /// Takes away the lowest cell, with its probability.
     #[inline]
-    fn take_lowest(&mut self, samples: u64) -> f64 {
+    pub(super) fn take_lowest(&mut self, samples: u64) -> f64 {
         let Some(&cell) = self.live().first() else { return 0.0 };
         let taken = self.restored(cell, self.base, samples);
         self.start += 1;
@@ -106,7 +106,7 @@ impl Walk {
 
     /// Takes away the highest cell, with its probability.
     #[inline]
-    fn take_highest(&mut self, samples: u64) -> f64 {
+    pub(super) fn take_highest(&mut self, samples: u64) -> f64 {
         let hits = self.end() - 1;
         let Some(cell) = self.cells.pop() else { return 0.0 };
         self.restored(cell, hits, samples)
@@ -114,19 +114,19 @@ impl Walk {
 
     /// One more than the hits of the highest cell.
     #[inline]
-    fn end(&self) -> u64 {
+    pub(super) fn end(&self) -> u64 {
         self.base + (self.cells.len() - self.start) as u64
     }
 
     /// Moves the cells to the front of their buffer.
     #[cold]
-    fn compact(&mut self) {
+    pub(super) fn compact(&mut self) {
         self.cells.drain(..self.start);
         self.start = 0;
     }
 
     /// Drops negligible cells at both ends, and tells the probability that is left.
-    fn trim(&mut self) -> f64 {
+    pub(super) fn trim(&mut self) -> f64 {
         while self.live().first().is_some_and(|cell| *cell < NEGLIGIBLE) {
             self.start += 1;
             self.base += 1;

@@ -47,11 +47,20 @@ pub struct Run<F: Family> {
     /// The next look, while the run goes on.
     pub(super) next_look: u64,
     pub(super) step: Step,
+    /// Whether a batch postponed a look of the schedule.
+    pub(super) postponed: bool,
 }
 
 impl<F: Family> Run<F> {
     pub(super) fn new(test: Sprt<F>) -> Self {
-        Self { test, statistic: test.empty(), samples: 0, next_look: test.look_after(0), step: Step::Continue }
+        Self {
+            test,
+            statistic: test.empty(),
+            samples: 0,
+            next_look: test.look_after(0),
+            step: Step::Continue,
+            postponed: false,
+        }
     }
 
     /// Takes one observation; a run that has stopped ignores it and answers as before.

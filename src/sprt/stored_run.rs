@@ -10,19 +10,20 @@ struct Stored {
     samples: u64,
     successes: u64,
     step: Step,
+    postponed: bool,
 }
 
 impl Serialize for Run<Bernoulli> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self { test, samples, step, .. } = *self;
-        Stored { test, samples, successes: self.successes(), step }.serialize(serializer)
+        let Self { test, samples, step, postponed, .. } = *self;
+        Stored { test, samples, successes: self.successes(), step, postponed }.serialize(serializer)
     }
 }
 
 impl<'de> Deserialize<'de> for Run<Bernoulli> {
     /// Refuses counts that cannot be, and a verdict that they do not lead to.
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let Stored { test, samples, successes, step } = Stored::deserialize(deserializer)?;
+        let Stored { test, samples, successes, step, postponed } = Stored::deserialize(deserializer)?;
         if successes > samples || samples > MAX_SAMPLES {
             return Err(serde::de::Error::custom(
                 "a run has no more successes than samples, and 2^53 of these at most",
@@ -42,6 +43,8 @@ impl<'de> Deserialize<'de> for Run<Bernoulli> {
             return Err(serde::de::Error::custom("the counts of the run do not lead to its verdict"));
         }
         (run.samples, run.step) = (samples, step);
+        // Off the schedule it can only have been carried there.
+        run.postponed = postponed || step != Step::Continue && !is_look;
         run.next_look = if step == Step::Continue { test.look_after(samples) } else { run.next_look };
         Ok(run)
     }

@@ -19,3 +19,10 @@ pub fn bound(function: &str, regime: &str) -> f64 {
     let line = TABLE.iter().find(|line| (line.0, line.1) == (function, regime));
     line.unwrap_or_else(|| panic!("no tolerance for {function}, {regime}")).2
 }
+
+/// Distance of the logarithm of a ratio from a boundary, relative to the sum of its terms, beyond which doubles decide: a
+/// thousand roundings, while the expression has five.
+pub const LATTICE_MARGIN: f64 = 1e-13;
+
+/// Wald's first identity, relative to the terms: the law carries 1e-14, and the remainder of the recursion as much.
+pub const WALD_IDENTITY: f64 = 1e-12;

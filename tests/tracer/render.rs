@@ -31,9 +31,9 @@ pub struct Visible {
 }
 
 impl Visible {
-    /// Whether the surface takes part in indirect light: the lamp does not.
+    /// Whether the surface shows indirect light: the black lamp does not.
     pub fn is_lit(&self) -> bool {
-        self.emission == DVec3::ZERO
+        self.reflectance != DVec3::ZERO
     }
 }
 
@@ -110,7 +110,7 @@ pub struct Settings {
 pub struct Rendering {
     /// Indirect radiance of every pixel, black where no lit surface is seen.
     pub indirect: Vec<DVec3>,
-    /// Number of light vectors in the cache; 0 without a cache.
+    /// Number of light vectors, in the cache and of pixels that it left bare; 0 without a cache.
     pub light_vectors: u64,
     /// Number of rays of all gathers, shadow rays not counted.
     pub rays: u64,
