@@ -28,6 +28,14 @@ fn a_narrow_band_exceeds_a_nominal_risk() -> Result<(), Failure> {
     Ok(())
 }
 
+#[test]
+fn calibration_takes_fewer() -> Result<(), Failure> {
+    let best = Sprt::calibrated(Bernoulli::new(0.1, 0.3)?, 0.05, 0.1)?;
+    prints(best.under_h0().mean_samples(), 1, "17.6");
+    prints(best.under_h1().mean_samples(), 1, "15.9");
+    Ok(())
+}
+
 /// The least sample of fixed size whose risks are not above those of the usual test.
 #[test]
 fn the_fixed_test_with_the_same_risks_takes_38() -> Result<(), Failure> {
