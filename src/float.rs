@@ -24,6 +24,11 @@ mod scalar {
     pub fn exp_m1(x: f64) -> f64 {
         libm::expm1(x)
     }
+
+    /// Square root, correctly rounded.
+    pub fn sqrt(x: f64) -> f64 {
+        libm::sqrt(x)
+    }
 }
 
 #[cfg(not(feature = "libm"))]
@@ -47,6 +52,11 @@ mod scalar {
     pub fn exp_m1(x: f64) -> f64 {
         x.exp_m1()
     }
+
+    /// Square root, correctly rounded.
+    pub fn sqrt(x: f64) -> f64 {
+        x.sqrt()
+    }
 }
 
-pub use scalar::{exp, exp_m1, ln, ln_1p};
+pub use scalar::{exp, exp_m1, ln, ln_1p, sqrt};

@@ -7,7 +7,11 @@ mod characteristic;
 mod compensated;
 mod counts;
 mod family;
+mod forward;
 mod looks;
+mod poisson;
+mod poisson_law;
+mod poisson_terms;
 mod recursion;
 mod run;
 mod sequential;
@@ -19,5 +23,6 @@ pub use characteristic::{CHARACTERISTIC_WORK, Characteristic, CharacteristicErro
 pub use counts::CountsError;
 pub use family::Family;
 pub use looks::Looks;
+pub use poisson::{Poisson, PoissonError};
 pub use run::{Decision, Run, Step};
 pub use sequential::{MAX_SAMPLES, Sprt};

@@ -14,19 +14,19 @@ use super::characteristic::{CharacteristicError, LawPoint};
 use super::{Bernoulli, Decision, Sprt};
 
 /// Work of one observation besides its cells, in cells; it also limits the memory that the law takes.
-const STEP_WORK: u64 = 32;
+pub(super) const STEP_WORK: u64 = 32;
 
 /// Looks between two measurements of the undecided probability.
 const CHECK: u32 = 16;
 
 /// A cell below this is dropped: it would only slow the recursion down as a subnormal number.
-const NEGLIGIBLE: f64 = 1e-290;
+pub(super) const NEGLIGIBLE: f64 = 1e-290;
 
 /// The recursion ends when what is undecided is this part of both the accepted and the rejected probability …
-const REMAINDER: f64 = f64::EPSILON / 4.0;
+pub(super) const REMAINDER: f64 = f64::EPSILON / 4.0;
 
 /// … where neither counts as less than this.
-const LEAST: f64 = 1e-40;
+pub(super) const LEAST: f64 = 1e-40;
 
 /// What the recursion found.
 pub(super) struct Outcome {
@@ -179,12 +179,9 @@ pub(super) fn law(test: &Sprt<Bernoulli>, p: f64, work: u64) -> Result<Outcome, 
     }
 }
 
-/// The law under a probability of success of 0 or 1: one point, found by bisection.
-pub(super) fn certain_law(test: &Sprt<Bernoulli>, success: bool) -> Outcome {
-    let decision = |samples: u64| {
-        let (successes, failures) = if success { (samples, 0) } else { (0, samples) };
-        test.family().decision(successes, failures, test.bounds())
-    };
+/// The law where every observation is known, so that `decision` depends on their number alone: one point, found by
+/// bisection.
+pub(super) fn certain_law<F>(test: &Sprt<F>, decision: impl Fn(u64) -> Option<Decision>) -> Outcome {
     let (first, step) = (test.look_schedule().first(), test.look_schedule().step());
     // Looks number `low..high` within the limit; the ratio moves one way, so decided looks follow undecided ones.
     let (mut low, mut high) = (0, test.limit().checked_sub(first).map_or(0, |rest| rest / step + 1));

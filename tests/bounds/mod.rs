@@ -4,4 +4,5 @@
 pub mod ilv;
 pub mod solid_angle;
 pub mod sprt;
+pub mod sprt_families;
 pub mod voronoi;
