@@ -25,6 +25,11 @@ mod scalar {
         libm::expm1(x)
     }
 
+    /// Cosine.
+    pub fn cos(x: f64) -> f64 {
+        libm::cos(x)
+    }
+
     /// Square root, correctly rounded.
     pub fn sqrt(x: f64) -> f64 {
         libm::sqrt(x)
@@ -53,10 +58,15 @@ mod scalar {
         x.exp_m1()
     }
 
+    /// Cosine.
+    pub fn cos(x: f64) -> f64 {
+        x.cos()
+    }
+
     /// Square root, correctly rounded.
     pub fn sqrt(x: f64) -> f64 {
         x.sqrt()
     }
 }
 
-pub use scalar::{exp, exp_m1, ln, ln_1p, sqrt};
+pub use scalar::{cos, exp, exp_m1, ln, ln_1p, sqrt};

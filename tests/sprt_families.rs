@@ -6,13 +6,27 @@ mod bounds;
 
 use bounds::sprt_families::bound;
 use serde::Deserialize;
-use steradian::sprt::{Bounds, Characteristic, Poisson, Sprt};
+use steradian::sprt::{Bounds, Characteristic, Normal, Poisson, Sprt};
 
 type Failure = Box<dyn std::error::Error>;
 
 #[derive(Deserialize)]
 struct Oracle {
+    gaussian: Vec<NormalCase>,
     poisson: Vec<PoissonCase>,
+}
+
+#[derive(Deserialize)]
+struct NormalCase {
+    id: String,
+    theta0: String,
+    theta1: String,
+    sigma: String,
+    alpha: String,
+    beta: String,
+    theta: String,
+    accept: String,
+    asn: String,
 }
 
 #[derive(Deserialize)]
@@ -60,6 +74,18 @@ fn poisson_tests_agree_with_the_oracle() -> Result<(), Failure> {
         let label = format!("{} at {}", case.id, case.lam);
         let got = test.characteristic(number(&case.lam))?;
         check_all("poisson", &label, &got, number(&case.accept), Some(number(&case.reject)), number(&case.asn));
+    }
+    Ok(())
+}
+
+#[test]
+fn normal_tests_agree_with_the_oracle() -> Result<(), Failure> {
+    for case in oracle()?.gaussian {
+        let family = Normal::new(number(&case.theta0), number(&case.theta1), number(&case.sigma))?;
+        let test = Sprt::new(family, Bounds::from_risks(number(&case.alpha), number(&case.beta))?);
+        let label = format!("{} at {}", case.id, case.theta);
+        let got = test.characteristic(number(&case.theta))?;
+        check_all("normal", &label, &got, number(&case.accept), None, number(&case.asn));
     }
     Ok(())
 }

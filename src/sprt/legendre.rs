@@ -1,0 +1,62 @@
+//! Gauss–Legendre quadrature.
+
+use alloc::vec::Vec;
+
+use crate::float;
+
+/// The nodes of the rule of `count` nodes on (−1, 1), in increasing order, with their weights.
+///
+/// # Accuracy
+/// A few units in the last place of 1 in the nodes, 1e-14 relative in the weights seen up to a thousand nodes.
+pub(super) fn rule(count: usize) -> Vec<(f64, f64)> {
+    let mut rule = alloc::vec![(0.0, 2.0); count];
+    let n = count as f64;
+    let inverses: Vec<f64> = (0..=count).map(|j| 1.0 / (j.max(1) as f64)).collect();
+    for place in 0..count.div_ceil(2) {
+        // Tricomi's start, and Newton from there; the middle node of an odd rule is 0.
+        let first = 1.0 - (1.0 - 1.0 / n) / (8.0 * n * n);
+        let mut x = first * float::cos(core::f64::consts::PI * (place as f64 + 0.75) / (n + 0.5));
+        if 2 * place + 1 == count {
+            x = 0.0;
+        }
+        let mut slope = 0.0;
+        for _ in 0..8 {
+            let (mut here, mut before) = (1.0, 0.0);
+            for (j, inverse) in inverses.iter().enumerate().skip(1) {
+                let j = j as f64;
+                (here, before) = (((2.0 * j - 1.0) * x * here - (j - 1.0) * before) * inverse, here);
+            }
+            slope = n * (before - x * here) / ((1.0 - x) * (1.0 + x));
+            let step = here / slope;
+            if 2 * place + 1 != count {
+                // Legendre's equation gives the second derivative, hence the slope where the step leads.
+                slope -= step * (2.0 * x * slope - n * (n + 1.0) * here) / ((1.0 - x) * (1.0 + x));
+                x -= step;
+            }
+            // Newton doubles the digits: what is left after this step is below a rounding.
+            if step.abs() < 1e-9 {
+                break;
+            }
+        }
+        let weight = 2.0 / ((1.0 - x) * (1.0 + x) * slope * slope);
+        rule[place] = (-x, weight);
+        rule[count - 1 - place] = (x, weight);
+    }
+    rule
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn polynomials_of_twice_the_degree_are_exact() {
+        for count in [1_usize, 2, 3, 12, 29, 64, 300] {
+            for degree in [0, count - count % 2, 2 * count - 2] {
+                let sum: f64 = rule(count).iter().map(|(x, weight)| weight * x.powi(degree as i32)).sum();
+                assert!((sum * (degree as f64 + 1.0) / 2.0 - 1.0).abs() < 4e-12, "{count} {degree} {sum}");
+            }
+        }
+        assert_eq!(rule(0), []);
+    }
+}
