@@ -30,6 +30,11 @@ mod scalar {
         libm::cos(x)
     }
 
+    /// Largest whole number that is not above.
+    pub fn floor(x: f64) -> f64 {
+        libm::floor(x)
+    }
+
     /// Square root, correctly rounded.
     pub fn sqrt(x: f64) -> f64 {
         libm::sqrt(x)
@@ -63,10 +68,15 @@ mod scalar {
         x.cos()
     }
 
+    /// Largest whole number that is not above.
+    pub fn floor(x: f64) -> f64 {
+        x.floor()
+    }
+
     /// Square root, correctly rounded.
     pub fn sqrt(x: f64) -> f64 {
         x.sqrt()
     }
 }
 
-pub use scalar::{cos, exp, exp_m1, ln, ln_1p, sqrt};
+pub use scalar::{cos, exp, exp_m1, floor, ln, ln_1p, sqrt};

@@ -6,7 +6,7 @@ mod bounds;
 
 use bounds::sprt_families::bound;
 use serde::Deserialize;
-use steradian::sprt::{Bounds, Characteristic, Normal, Poisson, Sprt};
+use steradian::sprt::{Bounds, Characteristic, Exponential, Normal, Poisson, Sprt};
 
 type Failure = Box<dyn std::error::Error>;
 
@@ -14,6 +14,19 @@ type Failure = Box<dyn std::error::Error>;
 struct Oracle {
     gaussian: Vec<NormalCase>,
     poisson: Vec<PoissonCase>,
+    exponential: Vec<ExponentialCase>,
+}
+
+#[derive(Deserialize)]
+struct ExponentialCase {
+    id: String,
+    rate0: String,
+    rate1: String,
+    alpha: String,
+    beta: String,
+    rate: String,
+    accept: String,
+    asn: String,
 }
 
 #[derive(Deserialize)]
@@ -86,6 +99,18 @@ fn normal_tests_agree_with_the_oracle() -> Result<(), Failure> {
         let label = format!("{} at {}", case.id, case.theta);
         let got = test.characteristic(number(&case.theta))?;
         check_all("normal", &label, &got, number(&case.accept), None, number(&case.asn));
+    }
+    Ok(())
+}
+
+#[test]
+fn exponential_tests_agree_with_the_oracle() -> Result<(), Failure> {
+    for case in oracle()?.exponential {
+        let family = Exponential::new(number(&case.rate0), number(&case.rate1))?;
+        let test = Sprt::new(family, Bounds::from_risks(number(&case.alpha), number(&case.beta))?);
+        let label = format!("{} at {}", case.id, case.rate);
+        let got = test.characteristic(number(&case.rate))?;
+        check_all("exponential", &label, &got, number(&case.accept), None, number(&case.asn));
     }
     Ok(())
 }

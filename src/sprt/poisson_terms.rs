@@ -23,7 +23,10 @@ pub(super) struct PoissonTerms {
 impl PoissonTerms {
     /// Bound of the multiplications that [`new`](Self::new) takes.
     pub(super) fn work(mean: f64, first: u64, last: u64) -> u64 {
-        (32.0 * float::sqrt(mean)) as u64 + 16 * (last - first).saturating_add(32)
+        // Far from the mean both series fall off by half from term to term.
+        let far = last as f64 <= 0.5 * mean || first as f64 > 2.0 * mean;
+        let series = if far { 0 } else { (32.0 * float::sqrt(mean)) as u64 };
+        series.saturating_add((last - first).saturating_add(64).saturating_mul(16))
     }
 
     /// The terms from `first` to `last`, both included, of the distribution of this mean.
@@ -106,9 +109,13 @@ pub(super) fn term(count: u64, mean: f64) -> f64 {
         let half = float::exp(-0.5 * mean);
         return (1..=count).fold(half, |product, i| product * (mean / i as f64)) * half;
     }
+    float::exp(ln_term(count, mean))
+}
+
+/// Logarithm of the same, for a count of at least 16 and a positive mean.
+pub(super) fn ln_term(count: u64, mean: f64) -> f64 {
     let n = count as f64;
-    let correction = stirling(n) + deviance(n, mean);
-    float::exp(-correction) / float::sqrt(core::f64::consts::TAU * n)
+    -(stirling(n) + deviance(n, mean)) - 0.5 * float::ln(core::f64::consts::TAU * n)
 }
 
 /// `ln n! − ln(√(2πn)·(n/e)ⁿ)`, from n = 16; the first term left out is below 1e-16.
