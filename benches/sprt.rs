@@ -99,7 +99,7 @@ fn characteristic(c: &mut Criterion) {
         assert!((got - mean).abs() < 0.05, "{got} {mean}");
         let name = format!("{p0}-{p1}-{alpha}-{beta}");
         group.bench_with_input(BenchmarkId::new(name, p), &p, |b, &p| {
-            b.iter(|| black_box(&test).characteristic(black_box(p)))
+            b.iter(|| black_box(&test).characteristic(black_box(p)));
         });
     }
     group.finish();

@@ -25,11 +25,6 @@ mod scalar {
         libm::expm1(x)
     }
 
-    /// Cosine.
-    pub fn cos(x: f64) -> f64 {
-        libm::cos(x)
-    }
-
     /// Largest whole number that is not above.
     pub fn floor(x: f64) -> f64 {
         libm::floor(x)
@@ -63,11 +58,6 @@ mod scalar {
         x.exp_m1()
     }
 
-    /// Cosine.
-    pub fn cos(x: f64) -> f64 {
-        x.cos()
-    }
-
     /// Largest whole number that is not above.
     pub fn floor(x: f64) -> f64 {
         x.floor()
@@ -79,4 +69,4 @@ mod scalar {
     }
 }
 
-pub use scalar::{cos, exp, exp_m1, floor, ln, ln_1p, sqrt};
+pub use scalar::{exp, exp_m1, floor, ln, ln_1p, sqrt};

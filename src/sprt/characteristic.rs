@@ -36,7 +36,14 @@ pub struct Characteristic {
     beyond: f64,
     /// Bound of the relative error that one more observation adds to a probability.
     growth: f64,
+    #[cfg_attr(feature = "serde", serde(serialize_with = "sequence"))]
     law: Vec<LawPoint>,
+}
+
+/// The points as a sequence, which needs no support for `Vec`.
+#[cfg(feature = "serde")]
+fn sequence<S: serde::Serializer>(law: &[LawPoint], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(law)
 }
 
 /// Probabilities of stopping after one number of observations.
@@ -65,8 +72,8 @@ impl Sprt<Bernoulli> {
     /// [`characteristic_within`](Self::characteristic_within) for more work.
     ///
     /// # Accuracy
-    /// [`Characteristic::error_bound`] is rigorous. Worst seen against 25 digits: relative 1e-14 for tests of a few
-    /// thousand observations, 2e-13 for hundreds of thousands.
+    /// [`Characteristic::error_bound`] is proven. Worst seen against 25 digits: relative 2e-15 in the probabilities,
+    /// the mean and the variance, 1e-14 in single points of the law of a test of 100 000 observations.
     ///
     /// # Examples
     /// ```
@@ -231,8 +238,8 @@ impl Characteristic {
 
     /// Bound of the absolute error of `accept`, `reject` and `undecided`. Proven for counts.
     ///
-    /// For Bernoulli tests: the probability of n given outcomes takes 3n roundings, so a sum of such terms errs by at
-    /// most 3·E\[N\] roundings; dividing by the total doubles that. The probability still undecided at the end of the
+    /// For Bernoulli tests: the probability of n given outcomes takes 3n roundings at most, those of its sum
+    /// included, so the sums err by at most 3·E\[N\] roundings; dividing by the total doubles that. The probability still undecided at the end of the
     /// recursion belongs to one side or the other. The other families take more roundings for an observation, and say
     /// in their `characteristic` what else the bound covers and on what evidence.
     #[must_use]
@@ -293,6 +300,8 @@ impl core::error::Error for CharacteristicError {}
 
 #[cfg(test)]
 mod tests {
+    use alloc::boxed::Box;
+
     use super::super::{Bounds, Looks};
     use super::*;
 

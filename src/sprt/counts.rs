@@ -34,7 +34,7 @@ impl Run<Bernoulli> {
                 return Err(CountsError::Trials { samples: self.samples, trials });
             }
             self.samples += trials;
-            self.statistic += successes;
+            self.statistic.add(successes, trials - successes, self.test.family());
             if self.samples >= self.next_look {
                 self.look();
             }
@@ -62,7 +62,8 @@ impl Run<Bernoulli> {
             block = block.min(left);
             if block > 1 && self.takes_whole(bits, block) {
                 self.samples += u64::from(block);
-                self.statistic += ones(bits, block);
+                let gained = ones(bits, block);
+                self.statistic.add(gained, u64::from(block) - gained, self.test.family());
                 if self.samples >= self.next_look {
                     self.next_look = self.test.look_after(self.samples);
                 }
@@ -84,13 +85,13 @@ impl Run<Bernoulli> {
     /// first and all the successes first both stay between the boundaries, and the limit is farther.
     fn takes_whole(&self, bits: u64, block: u32) -> bool {
         let end = self.samples + u64::from(block);
-        let (failures, gained) = (self.samples - self.statistic, ones(bits, block));
+        let successes = self.statistic.successes();
+        let (failures, gained) = (self.samples - successes, ones(bits, block));
         let lost = u64::from(block) - gained;
         let reached = |s, f| self.test.family().reached(s, f, self.test.bounds());
         let between = |s, f| reached(s, f) == (false, false);
         end < self.test.limit()
-            && (end < self.next_look
-                || between(self.statistic + gained, failures) && between(self.statistic, failures + lost))
+            && (end < self.next_look || between(successes + gained, failures) && between(successes, failures + lost))
     }
 }
 
@@ -134,6 +135,8 @@ impl core::error::Error for CountsError {}
 
 #[cfg(test)]
 mod tests {
+    use alloc::boxed::Box;
+
     use super::super::{Bernoulli, Bounds, Decision, Looks, MAX_SAMPLES, Sprt};
     use super::*;
 

@@ -1,8 +1,8 @@
 //! Waiting times: two simple hypotheses about the rate of exponential observations.
 
-use super::Family;
 use super::bernoulli::{exact, ln_quotient};
 use super::compensated::Sum;
+use super::{Bounds, Family};
 
 /// A rate of `rate0` (H0) against `rate1` (H1) of exponential observations, whose mean is the inverse of the rate.
 ///
@@ -99,6 +99,10 @@ impl Family for Exponential {
     /// The total time.
     type Statistic = Sum;
 
+    fn empty(&self, _: &Bounds) -> Sum {
+        Sum::default()
+    }
+
     #[inline]
     fn observe(&self, time: &mut Sum, observation: f64) {
         time.add(if observation >= 0.0 { observation } else { f64::NAN });
@@ -168,7 +172,7 @@ impl core::error::Error for ExponentialError {}
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Bounds, Sprt, Step};
+    use super::super::{Sprt, Step};
     use super::*;
 
     #[test]

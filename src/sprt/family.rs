@@ -22,6 +22,9 @@ use super::{Bounds, Decision};
 /// impl Family for UnitShift {
 ///     type Observation = f64;
 ///     type Statistic = f64; // the sum
+///     fn empty(&self, _: &Bounds) -> f64 {
+///         0.0
+///     }
 ///     fn observe(&self, sum: &mut f64, x: f64) {
 ///         *sum += x;
 ///     }
@@ -39,8 +42,11 @@ pub trait Family: Copy {
     /// One observation.
     type Observation;
 
-    /// What a run keeps of its observations; the default value stands for none.
-    type Statistic: Copy + Default + core::fmt::Debug + PartialEq;
+    /// What a run keeps of its observations.
+    type Statistic: Copy + core::fmt::Debug + PartialEq;
+
+    /// The statistic of no observations, for a test with these boundaries.
+    fn empty(&self, bounds: &Bounds) -> Self::Statistic;
 
     /// Adds one observation to the statistic.
     fn observe(&self, statistic: &mut Self::Statistic, observation: Self::Observation);
@@ -61,5 +67,13 @@ pub trait Family: Copy {
         } else {
             None
         }
+    }
+
+    /// Whether the ratio is sure to be strictly between the boundaries; `false` where a closer look is needed.
+    ///
+    /// A shortcut for [`decide`](Self::decide), asked before it at every look; the provided method always says `false`.
+    fn is_between(&self, samples: u64, statistic: &Self::Statistic) -> bool {
+        let _ = (samples, statistic);
+        false
     }
 }

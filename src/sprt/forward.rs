@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 
 use super::characteristic::{CharacteristicError, LawPoint};
 use super::recursion::{LEAST, Outcome, REMAINDER, STEP_WORK};
-use super::{Decision, Sprt};
+use super::{Decision, Family, Sprt};
 
 /// The undecided probability, spread over the places where the ratio may stand.
 pub(super) trait Walk {
@@ -30,7 +30,7 @@ pub(super) struct Exit {
 }
 
 /// The law of `test`, whose walk ends below with the decision `low` and above with the other one.
-pub(super) fn law<F>(
+pub(super) fn law<F: Family>(
     test: &Sprt<F>,
     mut walk: impl Walk,
     low: Decision,
@@ -69,7 +69,7 @@ pub(super) fn law<F>(
 /// Cutting every jump to ±width changes no time of leaving, and keeps the walk within an interval of three widths.
 /// There, with the mean μ of the cut jump and D = 3·width, Wald's identity gives `D/|μ|` blocks and the
 /// supermartingale `(x − low)(high − x)` gives `D²/4/(second − |μ|·D)`; one of the two is at most `2·D²/second`.
-pub(super) fn expected_beyond<F>(test: &Sprt<F>, samples: u64, block: u64, width: f64, second: f64) -> f64 {
+pub(super) fn expected_beyond<F: Family>(test: &Sprt<F>, samples: u64, block: u64, width: f64, second: f64) -> f64 {
     let bound = 18.1 * block as f64 * (width * width / second);
     let rest = (test.limit() - samples) as f64;
     if bound < rest { bound } else { rest }

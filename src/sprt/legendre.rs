@@ -2,8 +2,6 @@
 
 use alloc::vec::Vec;
 
-use crate::float;
-
 /// The nodes of the rule of `count` nodes on (−1, 1), in increasing order, with their weights.
 ///
 /// # Accuracy
@@ -13,9 +11,12 @@ pub(super) fn rule(count: usize) -> Vec<(f64, f64)> {
     let n = count as f64;
     let inverses: Vec<f64> = (0..=count).map(|j| 1.0 / (j.max(1) as f64)).collect();
     for place in 0..count.div_ceil(2) {
-        // Tricomi's start, and Newton from there; the middle node of an odd rule is 0.
+        // Tricomi's start, with the first terms of the cosine, and Newton from there; the middle of an odd rule is 0.
         let first = 1.0 - (1.0 - 1.0 / n) / (8.0 * n * n);
-        let mut x = first * float::cos(core::f64::consts::PI * (place as f64 + 0.75) / (n + 0.5));
+        let angle = core::f64::consts::PI * (place as f64 + 0.75) / (n + 0.5);
+        let square = angle * angle;
+        let cosine = 1.0 - square / 2.0 * (1.0 - square / 12.0 * (1.0 - square / 30.0 * (1.0 - square / 56.0)));
+        let mut x = first * cosine;
         if 2 * place + 1 == count {
             x = 0.0;
         }

@@ -1,4 +1,39 @@
-//! Sequential probability ratio tests.
+//! Sequential probability ratio tests: they choose between two simple hypotheses with as few observations as can be.
+//!
+//! # Model
+//! After each observation, or at the looks of a schedule, the ratio Λ of the likelihoods under H1 and under H0 is
+//! compared with two boundaries B < 1 < A: H0 is rejected when Λ ≥ A, accepted when Λ ≤ B, and observation goes on
+//! between. Wald's boundaries for the nominal risks α and β are A = (1 − β)/α and B = β/(1 − α).
+//!
+//! # Guarantees
+//! 1. A Bernoulli run decides from its counts, and a ratio that lies exactly on a boundary, every number being read
+//!    as the decimal it was written as, has reached it: tests/sprt_oracle.rs
+//! 2. One by one, by counts and by packed bits, the same outcomes lead to the same decision at the same sample:
+//!    tests/sprt_laws.rs
+//! 3. The operating characteristic is exact, with a proven bound of its error, and a test that would take too long to
+//!    analyse is a typed error: tests/sprt_oracle.rs, tests/sprt_simulation.rs
+//! 4. α' ≤ P₁(reject)/A and β' ≤ B·P₀(accept) for the exact risks α' and β', whatever the looks and the limit:
+//!    tests/sprt_laws.rs
+//!
+//! # Nominal risks bound nothing
+//! The exact α' can exceed α. Two hypotheses of 0.1 and 0.3, with α = 0.44 and β = 0.55, have a band so narrow,
+//! A = 1.0227 and B = 0.9821, that every test of them ends at its first look, whatever the outcomes:
+//! ```
+//! use steradian::sprt::{Bernoulli, Bounds, Looks, Sprt};
+//!
+//! let test = Sprt::new(Bernoulli::new(0.1, 0.3)?, Bounds::from_risks(0.44, 0.55)?).looks(Looks::from(10).every(2));
+//! let exact = test.characteristic(0.1)?;
+//! assert_eq!((exact.law().len(), exact.law()[0].samples), (1, 10)); // it rejects from two successes in ten
+//! assert!((exact.reject() - 0.2639010709).abs() < 1e-12);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Not here
+//! The random generator that simulates a test is the caller's.
+//!
+//! # Source
+//! Wald (1945), Sequential Tests of Statistical Hypotheses, Annals of Mathematical Statistics 16; Wald (1947),
+//! Sequential Analysis.
 
 mod approximation;
 mod bernoulli;
@@ -22,9 +57,11 @@ mod poisson_terms;
 mod recursion;
 mod run;
 mod sequential;
+#[cfg(feature = "serde")]
+mod stored_run;
 
 pub use approximation::Approximation;
-pub use bernoulli::{Bernoulli, BernoulliError};
+pub use bernoulli::{Bernoulli, BernoulliError, Counts};
 pub use bounds::{Bounds, BoundsError};
 pub use characteristic::{CHARACTERISTIC_WORK, Characteristic, CharacteristicError, LawPoint};
 pub use compensated::Sum as CompensatedSum;

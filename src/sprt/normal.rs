@@ -1,7 +1,7 @@
 //! Normal observations of known deviation: two simple hypotheses about their mean.
 
-use super::Family;
 use super::compensated::Sum;
+use super::{Bounds, Family};
 
 /// A mean of `mean0` (H0) against `mean1` (H1) of normal observations whose deviation σ is known.
 ///
@@ -123,6 +123,10 @@ impl Family for Normal {
     /// The sum of the distances from the middle of the two means.
     type Statistic = Sum;
 
+    fn empty(&self, _: &Bounds) -> Sum {
+        Sum::default()
+    }
+
     #[inline]
     fn observe(&self, sum: &mut Sum, observation: f64) {
         sum.add(observation);
@@ -207,7 +211,7 @@ impl core::error::Error for NormalError {}
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Bounds, Sprt, Step};
+    use super::super::{Sprt, Step};
     use super::*;
 
     #[test]

@@ -76,8 +76,8 @@ impl Poisson {
         Ok(Self {
             rate0,
             rate1,
-            event: Increment::new(event, EPS, event.abs()),
-            observation: Increment::new(rate0 - rate1, open, event.abs()),
+            event: Increment::new(event, EPS, event.abs(), 0.0),
+            observation: Increment::new(rate0 - rate1, open, event.abs(), 0.0),
         })
     }
 
@@ -126,6 +126,10 @@ impl Family for Poisson {
     type Observation = u64;
     /// The total count.
     type Statistic = u64;
+
+    fn empty(&self, _: &Bounds) -> u64 {
+        0
+    }
 
     #[inline]
     fn observe(&self, events: &mut u64, count: u64) {

@@ -51,13 +51,7 @@ pub struct Run<F: Family> {
 
 impl<F: Family> Run<F> {
     pub(super) fn new(test: Sprt<F>) -> Self {
-        Self {
-            test,
-            statistic: F::Statistic::default(),
-            samples: 0,
-            next_look: test.look_after(0),
-            step: Step::Continue,
-        }
+        Self { test, statistic: test.empty(), samples: 0, next_look: test.look_after(0), step: Step::Continue }
     }
 
     /// Takes one observation; a run that has stopped ignores it and answers as before.
@@ -69,13 +63,16 @@ impl<F: Family> Run<F> {
         self.samples += 1;
         self.test.family().observe(&mut self.statistic, observation);
         if self.samples >= self.next_look {
-            self.look();
+            if self.samples < self.test.limit() && self.test.family().is_between(self.samples, &self.statistic) {
+                self.next_look = self.test.look_following(self.samples);
+            } else {
+                self.look();
+            }
         }
         self.step
     }
 
     /// Decides, is exhausted, or sets the next look.
-    #[inline]
     pub(super) fn look(&mut self) {
         if let Some(decision) = self.test.family().decide(self.samples, &self.statistic, self.test.bounds()) {
             self.step = Step::Stop(decision);
@@ -142,6 +139,6 @@ impl Run<Bernoulli> {
     /// Number of successes taken.
     #[must_use]
     pub const fn successes(&self) -> u64 {
-        self.statistic
+        self.statistic.successes()
     }
 }

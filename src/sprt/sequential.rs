@@ -32,20 +32,22 @@ pub const MAX_SAMPLES: u64 = 1 << 53;
 )]
 #[cfg_attr(
     feature = "serde",
-    serde(bound(serialize = "F: Copy + serde::Serialize", deserialize = "F: serde::Deserialize<'de>"))
+    serde(bound(serialize = "F: Family + serde::Serialize", deserialize = "F: Family + serde::Deserialize<'de>"))
 )]
 #[must_use]
-pub struct Sprt<F> {
+pub struct Sprt<F: Family> {
     family: F,
+    /// The statistic that a run starts from.
+    empty: F::Statistic,
     bounds: Bounds,
     looks: Looks,
     limit: u64,
 }
 
-impl<F> Sprt<F> {
+impl<F: Family> Sprt<F> {
     /// A test that looks after every observation and has no limit.
     pub fn new(family: F, bounds: Bounds) -> Self {
-        Self { family, bounds, looks: Looks::default(), limit: MAX_SAMPLES }
+        Self { family, empty: family.empty(&bounds), bounds, looks: Looks::default(), limit: MAX_SAMPLES }
     }
 
     /// The same test with this schedule of looks.
@@ -82,6 +84,11 @@ impl<F> Sprt<F> {
         if self.limit < MAX_SAMPLES { Some(self.limit) } else { None }
     }
 
+    /// The statistic that a run starts from.
+    pub(super) const fn empty(&self) -> F::Statistic {
+        self.empty
+    }
+
     /// The limit in force, [`MAX_SAMPLES`] for a test without one.
     pub(super) const fn limit(&self) -> u64 {
         self.limit
@@ -90,6 +97,12 @@ impl<F> Sprt<F> {
     /// The first look after more than `samples` observations; reaching the limit is a look.
     pub(super) fn look_after(&self, samples: u64) -> u64 {
         self.looks.after(samples).min(self.limit)
+    }
+
+    /// The same where `look` is a look of the schedule itself: no division.
+    #[inline]
+    pub(super) fn look_following(&self, look: u64) -> u64 {
+        (look + self.looks.step()).min(self.limit)
     }
 }
 
@@ -133,7 +146,7 @@ struct Stored<F> {
 }
 
 #[cfg(feature = "serde")]
-impl<F> From<Sprt<F>> for Stored<F> {
+impl<F: Family> From<Sprt<F>> for Stored<F> {
     fn from(test: Sprt<F>) -> Self {
         let truncation = test.truncation();
         Self { family: test.family, bounds: test.bounds, looks: test.looks, truncation }
@@ -141,7 +154,7 @@ impl<F> From<Sprt<F>> for Stored<F> {
 }
 
 #[cfg(feature = "serde")]
-impl<F> From<Stored<F>> for Sprt<F> {
+impl<F: Family> From<Stored<F>> for Sprt<F> {
     fn from(stored: Stored<F>) -> Self {
         let test = Self::new(stored.family, stored.bounds).looks(stored.looks);
         match stored.truncation {
@@ -153,11 +166,18 @@ impl<F> From<Stored<F>> for Sprt<F> {
 
 #[cfg(test)]
 mod tests {
+    use alloc::boxed::Box;
+
+    use super::super::Bernoulli;
     use super::*;
 
+    fn test() -> Result<Sprt<Bernoulli>, Box<dyn core::error::Error>> {
+        Ok(Sprt::new(Bernoulli::new(0.1, 0.3)?, Bounds::from_ratios(2.0, 0.5)?))
+    }
+
     #[test]
-    fn a_limit_of_zero_reads_as_one() -> Result<(), super::super::BoundsError> {
-        let test = Sprt::new((), Bounds::from_ratios(2.0, 0.5)?);
+    fn a_limit_of_zero_reads_as_one() -> Result<(), Box<dyn core::error::Error>> {
+        let test = test()?;
         assert_eq!(test.truncation(), None);
         assert_eq!(test.truncate(0).truncation(), Some(1));
         assert_eq!(test.truncate(u64::MAX).truncation(), None);
@@ -165,8 +185,8 @@ mod tests {
     }
 
     #[test]
-    fn the_limit_is_a_look() -> Result<(), super::super::BoundsError> {
-        let test = Sprt::new((), Bounds::from_ratios(2.0, 0.5)?).looks(Looks::from(10).every(4)).truncate(16);
+    fn the_limit_is_a_look() -> Result<(), Box<dyn core::error::Error>> {
+        let test = test()?.looks(Looks::from(10).every(4)).truncate(16);
         assert_eq!([0, 10, 14].map(|n| test.look_after(n)), [10, 14, 16]);
         Ok(())
     }
