@@ -12,7 +12,7 @@ use super::{Decision, Family, Sprt};
 
 /// The undecided probability, spread over the places where the ratio may stand.
 pub(super) trait Walk {
-    /// Goes on by `gap` observations to the look after `samples`, spending no more than `work` multiplications;
+    /// Goes on by `gap` observations to the look after `samples`, spending no more than `work`;
     /// `None` if they do not suffice.
     fn look(&mut self, samples: u64, gap: u64, work: u64) -> Option<Exit>;
 }
@@ -25,7 +25,7 @@ pub(super) struct Exit {
     pub high: f64,
     /// Probability between the two.
     pub undecided: f64,
-    /// Multiplications spent.
+    /// Work spent, in units of about a nanosecond.
     pub work: u64,
 }
 

@@ -28,6 +28,9 @@ const ATTEMPTS: u32 = 6;
 /// Jumps of more deviations than this, beyond the drift, are left out between nodes.
 const REACH: f64 = 9.5;
 
+/// Multiplications of a transition in a unit of work, since they go several at once.
+const AT_ONCE: u64 = 4;
+
 /// Work of one exponential.
 const EXPONENTIAL: u64 = 16;
 
@@ -36,7 +39,7 @@ impl Sprt<Normal> {
     ///
     /// # Errors
     /// [`CharacteristicError::Mean`] unless `mean` is finite; [`CharacteristicError::Work`] if it would take more than
-    /// [`CHARACTERISTIC_WORK`] multiplications, as for a shift below a tenth.
+    /// [`CHARACTERISTIC_WORK`], about as many nanoseconds, as for a shift below a tenth.
     ///
     /// # Accuracy
     /// [`Characteristic::error_bound`] counts the roundings, and for each look the relative error of the quadrature,
@@ -57,7 +60,7 @@ impl Sprt<Normal> {
         self.characteristic_within(mean, CHARACTERISTIC_WORK)
     }
 
-    /// The operating characteristic, within a budget of `work` multiplications.
+    /// The operating characteristic, within a budget of `work`.
     ///
     /// # Errors
     /// As for [`characteristic`](Self::characteristic), with this budget.
@@ -178,8 +181,10 @@ impl Density {
             let (from, to) = ((self.low - m) * root, (self.high - m) * root);
             let (from, to) = if from + to < 0.0 { (-to, -from) } else { (from, to) };
             let want = (normal_tail::tail(from) - normal_tail::tail(to)) / root;
-            // What the subtraction loses where the interval is short is not an error of the rule.
-            let lost = 4.0 * UNIT * normal_tail::tail(from) / root;
+            // What rounding takes from the tails, above all from a short difference of them or far out, is not an error
+            // of the rule.
+            let far = from.max(0.0);
+            let lost = (8.0 + 2.0 * far * far) * UNIT * normal_tail::tail(from) / root;
             ((sum - want).abs() - lost).max(0.0) / want
         };
         let inside = [0.0, 0.25, 0.5, 1.7, 4.1].map(|places| centre + places * spacing);
@@ -230,7 +235,7 @@ impl Walk for &mut Density {
             self.values = self.nodes.iter().map(density).collect();
         } else {
             spent = self.transition(gap, work)?;
-            spent = spent.saturating_add(self.step.factors.len() as u64 + 4 * self.nodes.len() as u64);
+            spent = spent.saturating_add(self.step.factors.len() as u64 / AT_ONCE + 4 * self.nodes.len() as u64);
             if spent > work {
                 return None;
             }

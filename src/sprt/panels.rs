@@ -23,7 +23,7 @@ pub(super) struct Panel {
     pub to_end: Vec<f64>,
     /// Weights of the integral of the polynomial.
     pub whole: Vec<f64>,
-    /// For each node, the weights of its integral from there to the end.
+    /// For each node, its weights in the integrals from each of them to the end.
     pub partial: Vec<f64>,
     /// Weights of the integral of the density.
     pub mass: Vec<f64>,
@@ -38,8 +38,8 @@ impl Panel {
         let at_nodes: Vec<Vec<f64>> = rule.iter().map(|(x, _)| legendre_polynomials(*x, count + 1)).collect();
         let moments = exponential_moments(half * rate, count);
         let mut partial = Vec::with_capacity(count * count);
-        for from in &at_nodes {
-            for ((_, weight), at) in rule.iter().zip(&at_nodes) {
+        for ((_, weight), at) in rule.iter().zip(&at_nodes) {
+            for from in &at_nodes {
                 // ∫ Pⱼ from x to 1 is (Pⱼ₋₁(x) − Pⱼ₊₁(x))/(2j + 1), with P₋₁ = 1.
                 let rest = |j: usize| if j == 0 { 1.0 - from[1] } else { from[j - 1] - from[j + 1] };
                 let sum: f64 = (0..count).map(|j| at[j] * rest(j)).sum();
@@ -115,8 +115,9 @@ mod tests {
             let values: Vec<f64> = panel.to_end.iter().map(|u| u * u * u).collect();
             let dot = |weights: &[f64]| weights.iter().zip(&values).map(|(weight, value)| weight * value).sum::<f64>();
             assert!((dot(&panel.whole) * 64.0 - 1.0).abs() < 1e-14);
-            for (weights, u) in panel.partial.chunks(6).zip(&panel.to_end) {
-                assert!((dot(weights) * 64.0 - (2.0 * u).powi(4)).abs() < 1e-14, "{u}");
+            for (place, u) in panel.to_end.iter().enumerate() {
+                let weights: Vec<f64> = panel.partial.iter().skip(place).step_by(6).copied().collect();
+                assert!((dot(&weights) * 64.0 - (2.0 * u).powi(4)).abs() < 1e-14, "{u}");
             }
             let ones: f64 = panel.mass.iter().sum();
             assert!((ones * rate / -float::exp_m1(-rate * 0.5) - 1.0).abs() < 1e-13, "{rate} {ones}");

@@ -15,6 +15,9 @@ use super::{Decision, Poisson, Sprt};
 
 const UNIT: f64 = f64::EPSILON / 2.0;
 
+/// Multiplications of a convolution in a unit of work, since they go several at once.
+const AT_ONCE: u64 = 4;
+
 /// Jumps rarer than this are left out where they lead to undecided totals.
 const RARE: f64 = 1e-60;
 
@@ -23,7 +26,7 @@ impl Sprt<Poisson> {
     ///
     /// # Errors
     /// [`CharacteristicError::Rate`] unless `0 ≤ rate < ∞`; [`CharacteristicError::Work`] if it would take more than
-    /// [`CHARACTERISTIC_WORK`] multiplications.
+    /// [`CHARACTERISTIC_WORK`], about as many nanoseconds.
     ///
     /// # Accuracy
     /// [`Characteristic::error_bound`] is rigorous, given an exponential that is right to a unit in the last place.
@@ -44,7 +47,7 @@ impl Sprt<Poisson> {
         self.characteristic_within(rate, CHARACTERISTIC_WORK)
     }
 
-    /// The exact operating characteristic, within a budget of `work` multiplications.
+    /// The exact operating characteristic, within a budget of `work`.
     ///
     /// # Errors
     /// As for [`characteristic`](Self::characteristic), with this budget.
@@ -148,7 +151,7 @@ impl Walk for &mut Totals<'_> {
         self.edges = (low_edge, high_edge);
 
         let (first, last) = (low_edge.saturating_sub(1).saturating_sub(top), high_edge.saturating_sub(self.base));
-        let cost = (last - first).saturating_add(2).saturating_mul(self.cells.len() as u64);
+        let cost = (last - first).saturating_add(2).saturating_mul(self.cells.len() as u64) / AT_ONCE;
         let mut spent = self.prepare(gap, first, last, work)?;
         spent = spent.saturating_add(cost);
         if spent > work {
