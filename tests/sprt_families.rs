@@ -6,7 +6,7 @@ mod bounds;
 
 use bounds::sprt_families::bound;
 use serde::Deserialize;
-use steradian::sprt::{Bounds, Characteristic, Exponential, Normal, Poisson, Sprt};
+use steradian::sprt::{Bounds, Characteristic, CharacteristicError, Exponential, Family, Looks, Normal, Poisson, Sprt};
 
 type Failure = Box<dyn std::error::Error>;
 
@@ -111,6 +111,98 @@ fn exponential_tests_agree_with_the_oracle() -> Result<(), Failure> {
         let label = format!("{} at {}", case.id, case.rate);
         let got = test.characteristic(number(&case.rate))?;
         check_all("exponential", &label, &got, number(&case.accept), None, number(&case.asn));
+    }
+    Ok(())
+}
+
+/// The cases of tests/oracles/sprt_families.json: extremes, looks and limits.
+#[derive(Deserialize)]
+struct Extremes {
+    poisson: Vec<RateCase>,
+    exponential: Vec<RateCase>,
+    normal: Vec<MeanCase>,
+}
+
+#[derive(Deserialize)]
+struct RateCase {
+    rate0: String,
+    rate1: String,
+    rate: String,
+    #[serde(flatten)]
+    rest: Rest,
+}
+
+#[derive(Deserialize)]
+struct MeanCase {
+    mean0: String,
+    mean1: String,
+    deviation: String,
+    mean: String,
+    #[serde(flatten)]
+    rest: Rest,
+}
+
+#[derive(Deserialize)]
+struct Rest {
+    alpha: String,
+    beta: String,
+    first: u32,
+    step: u32,
+    limit: Option<u64>,
+    accept: String,
+    reject: String,
+    undecided: String,
+    mean_samples: String,
+}
+
+impl Rest {
+    fn test<F: Family>(&self, family: F) -> Result<Sprt<F>, Failure> {
+        let bounds = Bounds::from_risks(number(&self.alpha), number(&self.beta))?;
+        let test = Sprt::new(family, bounds).looks(Looks::from(self.first).every(self.step));
+        Ok(self.limit.map_or(test, |limit| test.truncate(limit)))
+    }
+
+    fn check(
+        &self,
+        family: &str,
+        label: &str,
+        got: Result<Characteristic, CharacteristicError>,
+    ) -> Result<(), Failure> {
+        let (got, tight) = (got?, bound(family, "extremes"));
+        let mean_bound = got.mean_error_bound();
+        for (quantity, got, want, own) in [
+            ("accept", got.accept(), &self.accept, got.error_bound()),
+            ("reject", got.reject(), &self.reject, got.error_bound()),
+            ("undecided", got.undecided(), &self.undecided, got.error_bound()),
+            ("mean", got.mean_samples(), &self.mean_samples, mean_bound),
+        ] {
+            let (want, label) = (number(want), format!("{label} {}/{}/{:?}", self.first, self.step, self.limit));
+            let error = (got - want).abs();
+            println!("{family} {label}: {quantity}: {:.1e}, own bound {own:.1e}", error / want);
+            assert!(error <= tight * want, "{label}: {quantity}: got {got:e}, want {want:e}, error {error:e}");
+            assert!(error <= own, "{label}: {quantity}: got {got:e}, want {want:e}, beyond its own bound {own:e}");
+        }
+        Ok(())
+    }
+}
+
+#[test]
+fn extremes_looks_and_limits_agree_with_the_oracle() -> Result<(), Failure> {
+    let extremes: Extremes = serde_json::from_str(include_str!("oracles/sprt_families.json"))?;
+    for case in extremes.poisson {
+        let test = case.rest.test(Poisson::new(number(&case.rate0), number(&case.rate1))?)?;
+        let label = format!("{} {} at {}", case.rate0, case.rate1, case.rate);
+        case.rest.check("poisson", &label, test.characteristic(number(&case.rate)))?;
+    }
+    for case in extremes.exponential {
+        let test = case.rest.test(Exponential::new(number(&case.rate0), number(&case.rate1))?)?;
+        let label = format!("{} {} at {}", case.rate0, case.rate1, case.rate);
+        case.rest.check("exponential", &label, test.characteristic(number(&case.rate)))?;
+    }
+    for case in extremes.normal {
+        let test = case.rest.test(Normal::new(number(&case.mean0), number(&case.mean1), number(&case.deviation))?)?;
+        let label = format!("{} {} {} at {}", case.mean0, case.mean1, case.deviation, case.mean);
+        case.rest.check("normal", &label, test.characteristic(number(&case.mean)))?;
     }
     Ok(())
 }

@@ -31,6 +31,7 @@ impl PoissonTerms {
 
     /// The terms from `first` to `last`, both included, of the distribution of this mean.
     pub(super) fn new(mean: f64, first: u64, last: u64) -> Self {
+        let mean = mean.min(f64::MAX);
         let len = (last - first) as usize + 1;
         let count = |place: usize| (first + place as u64) as f64;
         let centre = ((mean as u64).clamp(first, last) - first) as usize;
