@@ -208,10 +208,16 @@ impl Density {
             let reached = self.nodes[from..].iter().take_while(|(y, _)| *y <= x + reach);
             let before = step.factors.len();
             step.factors.extend(reached.map(|(y, _)| weight / root * normal_tail::density((y - x - drift) / root)));
+            let low = weight * normal_tail::tail((x - self.low + drift) / root);
+            let high = weight * normal_tail::tail((self.high - x - drift) / root);
+            // What goes out of a node is what was there: no rounding of a look is repeated by all that follow.
+            let factors = &mut step.factors[before..];
+            let inside: f64 =
+                factors.iter().zip(&self.nodes[from..]).map(|(factor, (_, weight))| factor * weight).sum();
+            let share = weight / (inside + low + high);
+            factors.iter_mut().for_each(|factor| *factor *= share);
             step.reach.push((from, step.factors.len()));
-            let low = normal_tail::tail((x - self.low + drift) / root);
-            let high = normal_tail::tail((self.high - x - drift) / root);
-            step.exits.push((weight * low, weight * high));
+            step.exits.push((share * low, share * high));
             spent = spent.saturating_add(EXPONENTIAL * (step.factors.len() - before + 4) as u64);
             if spent > work {
                 return None;
