@@ -248,6 +248,10 @@ mod tests {
         let sum = |shift: f64| move |i: u32| f64::from(i % 7) * 0.125 + shift;
         let ratio = near.decide((0..100).map(sum(0.0))).log_likelihood_ratio();
         assert_eq!(far.decide((0..100).map(sum(1e9))).log_likelihood_ratio(), ratio);
+        // The middle, 2⁵³ + 1, is no double.
+        let huge = 2.0_f64.powi(53);
+        let run = Sprt::new(Normal::new(huge, huge + 2.0, 8.0)?, bounds).decide([huge; 9]);
+        assert_eq!(run.log_likelihood_ratio(), -0.25 * 9.0 / 8.0);
         Ok(())
     }
 }

@@ -52,7 +52,7 @@ impl Sprt<Poisson> {
     /// # Errors
     /// As for [`characteristic`](Self::characteristic), with this budget.
     pub fn characteristic_within(&self, rate: f64, work: u64) -> Result<Characteristic, CharacteristicError> {
-        if !(rate >= 0.0 && rate < f64::INFINITY) {
+        if !(0.0..f64::INFINITY).contains(&rate) {
             return Err(CharacteristicError::Rate { rate });
         }
         if rate == 0.0 {
