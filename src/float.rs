@@ -24,6 +24,16 @@ mod scalar {
     pub fn exp_m1(x: f64) -> f64 {
         libm::expm1(x)
     }
+
+    /// Largest whole number that is not above.
+    pub fn floor(x: f64) -> f64 {
+        libm::floor(x)
+    }
+
+    /// Square root, correctly rounded.
+    pub fn sqrt(x: f64) -> f64 {
+        libm::sqrt(x)
+    }
 }
 
 #[cfg(not(feature = "libm"))]
@@ -47,9 +57,19 @@ mod scalar {
     pub fn exp_m1(x: f64) -> f64 {
         x.exp_m1()
     }
+
+    /// Largest whole number that is not above.
+    pub fn floor(x: f64) -> f64 {
+        x.floor()
+    }
+
+    /// Square root, correctly rounded.
+    pub fn sqrt(x: f64) -> f64 {
+        x.sqrt()
+    }
 }
 
-pub use scalar::{exp, exp_m1, ln, ln_1p};
+pub use scalar::{exp, exp_m1, floor, ln, ln_1p, sqrt};
 
 // The geometric half: correctly rounded, so that the same input gives the same bits on every machine.
 

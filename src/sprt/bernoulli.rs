@@ -34,10 +34,10 @@ pub struct Bernoulli {
 
 /// Logarithm of the likelihood ratio of one outcome, and what rounding leaves open.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Increment {
-    value: f64,
-    highest: f64,
-    lowest: f64,
+pub(super) struct Increment {
+    pub(super) value: f64,
+    pub(super) highest: f64,
+    pub(super) lowest: f64,
     /// The value in fixed point, at most 2³⁸ and right to one unit.
     fixed: i64,
 }
@@ -46,7 +46,7 @@ impl Increment {
     /// The slack is four roundings, and `open`: what the inputs leave open when each is known to half a unit in the
     /// last place. The latter is capped, since a decision takes of the order of `spacing⁻²` outcomes: all their slack
     /// together stays a small part of the spacing between the values that the logarithm can take.
-    fn new(value: f64, open: f64, spacing: f64, scale: f64) -> Self {
+    pub(super) fn new(value: f64, open: f64, spacing: f64, scale: f64) -> Self {
         let cap = value.abs() / 1_048_576.0 * (spacing * spacing).min(1.0);
         let slack = 4.0 * EPS * value.abs() + open.min(cap);
         Self { value, highest: value + slack, lowest: value - slack, fixed: (value * scale) as i64 }
@@ -215,12 +215,12 @@ fn scale(largest: f64) -> f64 {
 
 /// A count as a double; a run holds at most 2⁵³ outcomes, so nothing is lost. Signed conversion is one instruction.
 #[inline]
-fn exact(count: u64) -> f64 {
+pub(super) fn exact(count: u64) -> f64 {
     count as i64 as f64
 }
 
 /// `ln(a/b)`, given `a − b` without cancellation.
-fn ln_quotient(a: f64, b: f64, difference: f64) -> f64 {
+pub(super) fn ln_quotient(a: f64, b: f64, difference: f64) -> f64 {
     let relative = difference / b;
     if relative.abs() < 0.5 {
         float::ln_1p(relative)

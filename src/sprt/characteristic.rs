@@ -34,6 +34,8 @@ pub struct Characteristic {
     last: u64,
     /// Bound of the expected samples beyond `last`, given the remainder.
     beyond: f64,
+    /// Bound of the relative error that one more observation adds to a probability.
+    growth: f64,
     #[cfg_attr(feature = "serde", serde(serialize_with = "sequence"))]
     law: Vec<LawPoint>,
 }
@@ -97,10 +99,14 @@ impl Sprt<Bernoulli> {
         if !(0.0..=1.0).contains(&p) {
             return Err(CharacteristicError::Probability { p });
         }
+        let certain = |samples: u64| {
+            let (successes, failures) = if p == 1.0 { (samples, 0) } else { (0, samples) };
+            self.family().decision(successes, failures, self.bounds())
+        };
         let outcome =
-            if p == 0.0 || p == 1.0 { recursion::certain_law(self, p == 1.0) } else { recursion::law(self, p, work)? };
+            if p == 0.0 || p == 1.0 { recursion::certain_law(self, certain) } else { recursion::law(self, p, work)? };
         let beyond = if outcome.remainder > 0.0 { self.expected_beyond(p, outcome.samples) } else { 0.0 };
-        Ok(Characteristic::new(outcome, beyond))
+        Ok(Characteristic::new(outcome, beyond, 3.0 * UNIT))
     }
 
     /// Bound of the expected number of observations still to come, from any undecided state after `samples`.
@@ -126,7 +132,7 @@ impl Sprt<Bernoulli> {
 }
 
 impl Characteristic {
-    fn new(outcome: Outcome, beyond: f64) -> Self {
+    pub(super) fn new(outcome: Outcome, beyond: f64, growth: f64) -> Self {
         let Outcome { mut law, undecided, remainder, samples: last } = outcome;
         let (mut accept, mut reject, mut mean) = (Sum::default(), Sum::default(), Sum::default());
         for point in &law {
@@ -150,6 +156,7 @@ impl Characteristic {
             mean_samples: mean.value() / total,
             last,
             beyond,
+            growth,
             law,
         }
     }
@@ -229,21 +236,22 @@ impl Characteristic {
         &self.law
     }
 
-    /// Bound of the absolute error of `accept`, `reject` and `undecided`. Proven.
+    /// Bound of the absolute error of `accept`, `reject` and `undecided`. Proven for counts.
     ///
-    /// The probability of n given outcomes takes 3n roundings at most, those of its sum included, so the sums err by at
-    /// most 3·E\[N\] roundings; dividing by the total doubles that. The probability still undecided at the end of the recursion
-    /// belongs to one side or the other.
+    /// For Bernoulli tests: the probability of n given outcomes takes 3n roundings at most, those of its sum
+    /// included, so the sums err by at most 3·E\[N\] roundings; dividing by the total doubles that. The probability still undecided at the end of the
+    /// recursion belongs to one side or the other. The other families take more roundings for an observation, and say
+    /// in their `characteristic` what else the bound covers and on what evidence.
     #[must_use]
     pub fn error_bound(&self) -> f64 {
-        self.remainder + (6.0 * self.mean_samples + 8.0) * UNIT
+        self.remainder + 2.0 * self.growth * self.mean_samples + 8.0 * UNIT
     }
 
-    /// Bound of the absolute error of `mean_samples`. Proven, as for [`error_bound`](Self::error_bound).
+    /// Bound of the absolute error of `mean_samples`, as for [`error_bound`](Self::error_bound).
     #[must_use]
     pub fn mean_error_bound(&self) -> f64 {
         let square = self.variance_samples() + self.mean_samples * self.mean_samples;
-        self.remainder * self.beyond + (6.0 * square + 8.0 * self.mean_samples) * UNIT
+        self.remainder * self.beyond + 2.0 * self.growth * square + 8.0 * self.mean_samples * UNIT
     }
 }
 
@@ -255,6 +263,16 @@ pub enum CharacteristicError {
     Probability {
         /// The value given.
         p: f64,
+    },
+    /// `mean` is not finite.
+    Mean {
+        /// The value given.
+        mean: f64,
+    },
+    /// `rate` is not the rate of a distribution of the family.
+    Rate {
+        /// The value given.
+        rate: f64,
     },
     /// The budget of work was spent.
     Work {
@@ -269,6 +287,8 @@ impl core::fmt::Display for CharacteristicError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::Probability { p } => write!(f, "a probability must lie between 0 and 1, got {p}"),
+            Self::Mean { mean } => write!(f, "a mean must be finite, got {mean}"),
+            Self::Rate { rate } => write!(f, "a rate must be finite and positive, got {rate}"),
             Self::Work { samples, undecided } => {
                 write!(f, "the work is spent after {samples} observations, with a probability of {undecided} undecided")
             }

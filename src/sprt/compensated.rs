@@ -7,8 +7,8 @@
 ///
 /// # Source
 /// Neumaier (1974), Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Sum {
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sum {
     total: f64,
     lost: f64,
 }
@@ -26,7 +26,8 @@ impl Sum {
 
     /// The sum so far.
     #[inline]
-    pub(super) fn value(self) -> f64 {
+    #[must_use]
+    pub fn value(self) -> f64 {
         self.total + self.lost
     }
 }

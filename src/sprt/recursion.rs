@@ -11,7 +11,7 @@
 use alloc::vec::Vec;
 
 use super::characteristic::{CharacteristicError, LawPoint};
-use super::{Bernoulli, Decision, Sprt};
+use super::{Bernoulli, Decision, Family, Sprt};
 
 /// Work of one observation besides its cells, in cells; it also limits the memory that the law takes.
 pub(super) const STEP_WORK: u64 = 32;
@@ -20,10 +20,10 @@ pub(super) const STEP_WORK: u64 = 32;
 const CHECK: u32 = 16;
 
 /// A cell below this is dropped: it would only slow the recursion down as a subnormal number.
-const NEGLIGIBLE: f64 = 1e-290;
+pub(super) const NEGLIGIBLE: f64 = 1e-290;
 
 /// The recursion ends when what is undecided is this part of both the accepted and the rejected probability …
-const REMAINDER: f64 = f64::EPSILON / 4.0;
+pub(super) const REMAINDER: f64 = f64::EPSILON / 4.0;
 
 /// … where neither counts as less than this.
 pub(super) const LEAST: f64 = 1e-40;
@@ -221,12 +221,9 @@ fn first_from(edge: u64, samples: u64, holds: impl Fn(u64) -> bool) -> u64 {
     (edge..=samples).find(|hits| holds(*hits)).unwrap_or(samples + 1)
 }
 
-/// The law under a probability of success of 0 or 1: one point, found by bisection.
-pub(super) fn certain_law(test: &Sprt<Bernoulli>, success: bool) -> Outcome {
-    let decision = |samples: u64| {
-        let (successes, failures) = if success { (samples, 0) } else { (0, samples) };
-        test.family().decision(successes, failures, test.bounds())
-    };
+/// The law where every observation is known, so that `decision` depends on their number alone: one point, found by
+/// bisection.
+pub(super) fn certain_law<F: Family>(test: &Sprt<F>, decision: impl Fn(u64) -> Option<Decision>) -> Outcome {
     let (first, step) = (test.look_schedule().first(), test.look_schedule().step());
     // Looks number `low..high` within the limit; the ratio moves one way, so decided looks follow undecided ones.
     let (mut low, mut high) = (0, test.limit().checked_sub(first).map_or(0, |rest| rest / step + 1));

@@ -6,6 +6,7 @@ pub mod ilv;
 #[cfg(feature = "sphere")]
 pub mod solid_angle;
 pub mod sprt;
+pub mod sprt_families;
 pub mod sprt_inference;
 #[cfg(feature = "sphere")]
 pub mod voronoi;

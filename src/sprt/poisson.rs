@@ -1,0 +1,238 @@
+//! Counts of events: two simple hypotheses about the mean count of an observation.
+
+use super::bernoulli::{Increment, exact, ln_quotient};
+use super::{Bounds, Decision, Family};
+
+const EPS: f64 = f64::EPSILON;
+
+/// Largest total count that a run tells from the next.
+const LARGEST: u64 = i64::MAX as u64;
+
+/// A mean count of `rate0` (H0) against `rate1` (H1), one Poisson count for each observation.
+///
+/// # Model
+/// After `n` observations that sum to `x` the likelihood ratio is `(λ₁/λ₀)^x · exp(−n·(λ₁ − λ₀))`.
+///
+/// # Guarantees
+/// 1. A run decides from its counts, never from a sum of logarithms, and a ratio that lies on a boundary, up to the
+///    rounding of the numbers as they were given, has reached it.
+/// 2. Every `u64` is an observation. A run whose total passes 2⁶³ − 1 decides nothing from there on.
+///
+/// tests/sprt_families.rs
+///
+/// # Examples
+/// Events twice as frequent: each doubles the ratio, and an observation divides it by e.
+/// ```
+/// use steradian::sprt::{Bounds, Decision, Poisson, Sprt, Step};
+///
+/// let mut run = Sprt::new(Poisson::new(1.0, 2.0)?, Bounds::from_ratios(19.0, 1.0 / 19.0)?).start();
+/// assert_eq!(run.push(3), Step::Continue); // 8/e
+/// assert_eq!(run.push(4), Step::Continue); // 128/e² = 17.3
+/// assert_eq!(run.push(2), Step::Stop(Decision::RejectH0)); // 512/e³ = 25.5
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "Stored", into = "Stored")
+)]
+#[must_use]
+pub struct Poisson {
+    rate0: f64,
+    rate1: f64,
+    event: Increment,
+    observation: Increment,
+}
+
+impl Poisson {
+    /// H0: a mean count of `rate0` against H1: `rate1`; either may be the larger.
+    ///
+    /// # Errors
+    /// [`PoissonError::Rate0`] and [`PoissonError::Rate1`] unless positive and finite (NaN fails);
+    /// [`PoissonError::Equal`] if both are the same double.
+    ///
+    /// # Examples
+    /// ```
+    /// use steradian::sprt::Poisson;
+    ///
+    /// let family = Poisson::new(1.0, 2.0)?;
+    /// assert_eq!((family.rate0(), family.rate1()), (1.0, 2.0));
+    /// assert!(Poisson::new(1.0, 0.0).is_err());
+    /// # Ok::<(), steradian::sprt::PoissonError>(())
+    /// ```
+    pub fn new(rate0: f64, rate1: f64) -> Result<Self, PoissonError> {
+        if !(rate0 > 0.0 && rate0 < f64::INFINITY) {
+            return Err(PoissonError::Rate0 { rate0 });
+        }
+        if !(rate1 > 0.0 && rate1 < f64::INFINITY) {
+            return Err(PoissonError::Rate1 { rate1 });
+        }
+        if rate0 == rate1 {
+            return Err(PoissonError::Equal { rate: rate0 });
+        }
+        let event = ln_quotient(rate1, rate0, rate1 - rate0);
+        let open = EPS / 2.0 * rate0 + EPS / 2.0 * rate1;
+        Ok(Self {
+            rate0,
+            rate1,
+            event: Increment::new(event, EPS, event.abs(), 0.0),
+            observation: Increment::new(rate0 - rate1, open, event.abs(), 0.0),
+        })
+    }
+
+    /// Mean count under H0.
+    #[must_use]
+    pub const fn rate0(&self) -> f64 {
+        self.rate0
+    }
+
+    /// Mean count under H1.
+    #[must_use]
+    pub const fn rate1(&self) -> f64 {
+        self.rate1
+    }
+
+    /// `ln(λ₁/λ₀)`, what one event adds to the logarithm of the ratio.
+    #[must_use]
+    pub const fn event_increment(&self) -> f64 {
+        self.event.value
+    }
+
+    /// `λ₀ − λ₁`, what one observation adds to the logarithm of the ratio, whatever its count.
+    #[must_use]
+    pub const fn observation_increment(&self) -> f64 {
+        self.observation.value
+    }
+
+    /// The decision for a total count of `events` in `samples` observations; monotone in `events`.
+    pub(super) fn decision(&self, events: u64, samples: u64, bounds: &Bounds) -> Option<Decision> {
+        if events > LARGEST {
+            return None;
+        }
+        let (x, n) = (exact(events), exact(samples));
+        let accept = x * self.event.lowest + n * self.observation.lowest <= bounds.accept_to();
+        let reject = x * self.event.highest + n * self.observation.highest >= bounds.reject_from();
+        match (accept, reject) {
+            (true, false) => Some(Decision::AcceptH0),
+            (false, true) => Some(Decision::RejectH0),
+            // Between the boundaries, or they are closer than the slack and nothing tells the ratio from 1.
+            (false, false) | (true, true) => None,
+        }
+    }
+}
+
+impl Family for Poisson {
+    type Observation = u64;
+    /// The total count.
+    type Statistic = u64;
+
+    fn empty(&self, _: &Bounds) -> u64 {
+        0
+    }
+
+    #[inline]
+    fn observe(&self, events: &mut u64, count: u64) {
+        *events = events.saturating_add(count);
+    }
+
+    fn log_likelihood_ratio(&self, samples: u64, events: &u64) -> f64 {
+        *events as f64 * self.event.value + exact(samples) * self.observation.value
+    }
+
+    #[inline]
+    fn decide(&self, samples: u64, events: &u64, bounds: &Bounds) -> Option<Decision> {
+        self.decision(*events, samples, bounds)
+    }
+}
+
+/// The two hypotheses as they are stored.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+struct Stored {
+    rate0: f64,
+    rate1: f64,
+}
+
+#[cfg(feature = "serde")]
+impl From<Poisson> for Stored {
+    fn from(family: Poisson) -> Self {
+        Self { rate0: family.rate0, rate1: family.rate1 }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Stored> for Poisson {
+    type Error = PoissonError;
+
+    fn try_from(stored: Stored) -> Result<Self, PoissonError> {
+        Self::new(stored.rate0, stored.rate1)
+    }
+}
+
+/// Why two numbers are not a pair of hypotheses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum PoissonError {
+    /// `rate0` is not positive and finite.
+    Rate0 {
+        /// The value given.
+        rate0: f64,
+    },
+    /// `rate1` is not positive and finite.
+    Rate1 {
+        /// The value given.
+        rate1: f64,
+    },
+    /// Both hypotheses are the same.
+    Equal {
+        /// The value given twice.
+        rate: f64,
+    },
+}
+
+impl core::fmt::Display for PoissonError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Rate0 { rate0 } => write!(f, "rate0 must be positive and finite, got {rate0}"),
+            Self::Rate1 { rate1 } => write!(f, "rate1 must be positive and finite, got {rate1}"),
+            Self::Equal { rate } => write!(f, "the hypotheses must differ, got {rate} twice"),
+        }
+    }
+}
+
+impl core::error::Error for PoissonError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_a_rate_is_refused() {
+        for bad in [f64::NAN, f64::INFINITY, -1.0, 0.0] {
+            assert!(matches!(Poisson::new(bad, 0.3), Err(PoissonError::Rate0 { .. })));
+            assert!(matches!(Poisson::new(0.1, bad), Err(PoissonError::Rate1 { .. })));
+        }
+        assert_eq!(Poisson::new(3.0, 3.0), Err(PoissonError::Equal { rate: 3.0 }));
+    }
+
+    #[test]
+    fn increments_are_finite_over_the_whole_range() -> Result<(), PoissonError> {
+        let (least, most) = (f64::from_bits(1), f64::MAX);
+        for (low, high) in [(least, most), (least, 2.0 * least), (1.0, 1.0 + EPS), (1.0, most)] {
+            for (family, sign) in [(Poisson::new(low, high)?, 1.0), (Poisson::new(high, low)?, -1.0)] {
+                assert!(family.event.highest.is_finite() && family.event.value * sign > 0.0, "{family:?}");
+                assert!(family.observation.value.is_finite() && family.observation.value * sign < 0.0, "{family:?}");
+            }
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn a_total_that_cannot_be_kept_decides_nothing() -> Result<(), Box<dyn core::error::Error>> {
+        let (family, bounds) = (Poisson::new(1.0, 2.0)?, Bounds::from_risks(0.05, 0.05)?);
+        assert_eq!(family.decision(LARGEST, 1, &bounds), Some(Decision::RejectH0));
+        assert_eq!(family.decision(u64::MAX, 1, &bounds), None);
+        Ok(())
+    }
+}

@@ -1,0 +1,22 @@
+//! Tolerances of the tests of the families of `sprt` other than Bernoulli's.
+
+/// (family, quantity, bound, kind of evidence). Bounds are relative unless the quantity says absolute.
+pub const TABLE: &[(&str, &str, f64, &str)] = &[
+    ("poisson", "oracle", 1e-13, "searched: 7 runs of 20 digits"),
+    ("normal", "oracle", 1e-13, "searched: 11 runs of 20 digits"),
+    ("exponential", "oracle", 1e-13, "searched: 8 runs of 20 digits"),
+    ("poisson", "extremes", 1e-12, "searched: 13 runs of 25 digits"),
+    ("normal", "extremes", 1e-12, "searched: 17 runs of 25 digits"),
+    ("exponential", "extremes", 1e-12, "searched: 18 runs of 25 digits"),
+    ("poisson", "own bound, absolute", 1e-9, "roundings counted; it grows with the mean number of observations"),
+    ("normal", "own bound, absolute", 1e-9, "as for poisson"),
+    ("exponential", "own bound, absolute", 1e-9, "as for poisson"),
+    ("poisson", "enumeration", 1e-13, "roundings of the enumeration"),
+    ("exponential", "overshoot", 1e-10, "roundings of one point of the law, down to the rarest"),
+];
+
+/// The bound of this line of the table.
+pub fn bound(family: &str, quantity: &str) -> f64 {
+    let line = TABLE.iter().find(|line| (line.0, line.1) == (family, quantity));
+    line.unwrap_or_else(|| panic!("no tolerance for {family}, {quantity}")).2
+}
