@@ -14,6 +14,8 @@
 //!    analyse is a typed error: tests/sprt_oracle.rs, tests/sprt_simulation.rs
 //! 4. α' ≤ P₁(reject)/A and β' ≤ B·P₀(accept) for the exact risks α' and β', whatever the looks and the limit:
 //!    tests/sprt_laws.rs
+//! 5. The characteristics of [`Poisson`], [`Normal`] and [`Exponential`] tests are those of their laws too, with looks
+//!    and limits: tests/sprt_families.rs, tests/sprt_families_laws.rs
 //!
 //! # Nominal risks bound nothing
 //! The exact α' can exceed α. Two hypotheses of 0.1 and 0.3, with α = 0.44 and β = 0.55, have a band so narrow,
