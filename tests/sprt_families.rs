@@ -1,6 +1,7 @@
 //! Law: the characteristics of Poisson, normal and exponential tests are exact.
 //!
-//! tests/oracles/sprt.md says how the values were made.
+//! tests/oracles/sprt.md says how the values of the first tests were made, tests/oracles/sprt_families.py makes those of
+//! the last.
 
 mod bounds;
 

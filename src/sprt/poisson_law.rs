@@ -30,7 +30,8 @@ impl Sprt<Poisson> {
     ///
     /// # Accuracy
     /// [`Characteristic::error_bound`] is rigorous, given an exponential that is right to a unit in the last place.
-    /// Worst seen: see tests/bounds/sprt_families.rs.
+    /// Worst seen against
+    /// 25 digits: relative 7e-15.
     ///
     /// # Examples
     /// ```

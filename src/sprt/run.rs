@@ -25,7 +25,7 @@ pub enum Step {
     Exhausted,
 }
 
-/// A test under way: small, `Copy`, and sticky, for once it has stopped it ignores what comes.
+/// A test under way: `Copy`, it owns its test, and sticky, for once it has stopped it ignores what comes.
 ///
 /// # Examples
 /// ```
