@@ -53,7 +53,7 @@ pub fn error_map(size: u32, error: impl Fn(usize) -> f64) -> RgbImage {
     image_of(size, |pixel| inferno(error(pixel).abs() / LARGEST_ERROR))
 }
 
-/// An error map with the scale of its colours under it.
+/// An error map with the scale of its colours under it, in parts of the mean.
 pub fn with_scale(map: &RgbImage) -> RgbImage {
     let height = map.height();
     let width = map.width().max(NARROWEST);
@@ -75,7 +75,7 @@ pub fn contact_sheet(title: &str, columns: &[Column]) -> RgbImage {
     let Some(side) = columns.first().map(|column| column.pictures[0].width()) else { return RgbImage::new(1, 1) };
     let pitch = side.max(NARROWEST) + MARGIN;
     let top = MARGIN + 4 * LINE;
-    let rows = [("picture", 0), ("indirect light", 1), ("|error| of indirect luminance", 2)];
+    let rows = [("picture", 0), ("indirect light", 1), ("|error| of luminance / its mean", 2)];
     let width = MARGIN + columns.len() as u32 * pitch;
     let height = top + rows.len() as u32 * (side + LINE + MARGIN) + 3 * LINE;
     let mut sheet = RgbImage::from_pixel(width, height, BACKGROUND);
@@ -119,7 +119,7 @@ fn draw_scale(sheet: &mut RgbImage, x: u32, y: u32, width: u32) {
     for (t, alignment) in [(0.0, Alignment::Left), (0.5, Alignment::Center), (1.0, Alignment::Right)] {
         let at = Point::new((x + (t * f64::from(width)) as u32) as i32, (y + LINE + 13) as i32);
         let style = MonoTextStyle::new(&FONT_8X13, Rgb888::CSS_SILVER);
-        let label = if t == 1.0 { format!(">= {} of mean", percent(t)) } else { percent(t) };
+        let label = if t == 1.0 { format!(">= {}", percent(t)) } else { percent(t) };
         let _ = Text::with_alignment(&label, at, style, alignment).draw(&mut Canvas(sheet));
     }
 }
