@@ -13,10 +13,10 @@ mod tracer;
 use bounds::ilv::{CONSTANT_FIELD, PIPELINE, PIPELINE_DEVIATIONS, PIPELINE_SEEDS};
 use steradian::{
     glam::DVec3,
-    ilv::{AdaptiveSampler, Validity, Weights, luminance},
+    ilv::{AdaptiveSampler, Validity, Weights},
 };
 use tracer::{
-    Scene,
+    Deviation, Scene,
     render::{self, Settings, View},
 };
 
@@ -55,26 +55,14 @@ fn reference(view: &View) -> [Vec<DVec3>; 2] {
     })
 }
 
-/// (RMSE, bias), both over the mean.
-fn deviation(view: &View, picture: &[DVec3], [a, b]: &[Vec<DVec3>; 2]) -> (f64, f64) {
-    let (mut n, mut mean, mut square, mut bias) = (0.0, 0.0, 0.0, 0.0);
-    for pixel in (0..picture.len()).filter(|&pixel| view.lit(pixel).is_some()) {
-        let (m, r1, r2) = (luminance(picture[pixel]), luminance(a[pixel]), luminance(b[pixel]));
-        n += 1.0;
-        mean += 0.5 * (r1 + r2);
-        square += (m - r1) * (m - r2);
-        bias += m - 0.5 * (r1 + r2);
-    }
-    ((square.max(0.0) / n).sqrt() / (mean / n), bias / mean)
-}
-
 /// What is measured of one picture: RMSE, bias, number of light vectors, rays per light vector or per lit pixel.
 fn measure(view: &View, settings: &Settings, reference: &[Vec<DVec3>; 2]) -> [f64; 4] {
     let rendering = render::render(view, settings, &|_| ()).unwrap();
-    let (rmse, bias) = deviation(view, &rendering.indirect, reference);
-    let lit = (0..view.visible.len()).filter(|&pixel| view.lit(pixel).is_some()).count();
-    let gathers = if rendering.light_vectors > 0 { rendering.light_vectors as f64 } else { lit as f64 };
-    [rmse, bias, rendering.light_vectors as f64, rendering.rays as f64 / gathers]
+    let lit = || (0..view.visible.len()).filter(|&pixel| view.lit(pixel).is_some());
+    let [a, b] = reference;
+    let error = Deviation::over(lit(), &rendering.indirect, [a, b]).expect("the scene is lit");
+    let gathers = if rendering.light_vectors > 0 { rendering.light_vectors as f64 } else { lit().count() as f64 };
+    [error.relative_rmse, error.relative_bias, rendering.light_vectors as f64, rendering.rays as f64 / gathers]
 }
 
 /// H0, for each scene, method and quantity: the mean over `PIPELINE_SEEDS` seeds comes from the distribution measured over

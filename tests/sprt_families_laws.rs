@@ -2,8 +2,8 @@
 //! families, brute enumeration and simulation.
 //!
 //! Statistical tests, H0: each of the `RUNS` runs of a design is an independent draw from the exact law. Two-sided
-//! binomial tests of the decisions, and a chi-square test of N over cells of at least `CELL` expected runs. Suite-wide
-//! alpha 1e-6; this file takes 1e-8 of it, shared equally by its `TESTS` comparisons.
+//! binomial tests of the decisions; Kolmogorov–Smirnov, and chi-square over cells of at least `CELL` expected runs, for N.
+//! Suite-wide alpha 1e-6; this file takes 1e-8 of it, shared equally by its `TESTS` comparisons.
 
 mod bounds;
 mod seeds;
@@ -20,7 +20,7 @@ use steradian::sprt::{
 const RUNS: u32 = 500_000;
 const CELL: f64 = 100.0;
 const ALPHA: f64 = 1e-8;
-const TESTS: f64 = 6.0 * 3.0;
+const TESTS: f64 = 6.0 * 4.0;
 
 type Failure = Box<dyn std::error::Error>;
 
@@ -383,6 +383,17 @@ fn simulate<F: Exact>(stream: u64, test: Sprt<F>, parameter: f64) -> Result<(), 
     let label = |what| format!("{} {stream}: {what}", F::NAME);
     check_count(&label("accepted"), accepted, exact.accept(), runs.into(), alpha)?;
     check_count(&label("rejected"), rejected, exact.reject(), runs.into(), alpha)?;
+
+    // Kolmogorov–Smirnov of N; the critical distance of Dvoretzky, Kiefer, Wolfowitz and Massart holds for discrete laws.
+    let (mut by_now, mut probability, mut distance, mut from) = (0, 0.0, 0.0_f64, 0);
+    for point in exact.law() {
+        by_now += lengths.range(from..=point.samples).map(|(_, count)| count).sum::<u64>();
+        from = point.samples + 1;
+        probability += point.accept + point.reject;
+        distance = distance.max((by_now as f64 / f64::from(runs) - probability).abs());
+    }
+    let largest = ((2.0 / alpha).ln() / (2.0 * f64::from(runs))).sqrt();
+    assert!(distance <= largest, "{}: {distance}, critical {largest}, seed {}", label("distance"), seeds::seed());
 
     // Chi-square of N, over cells merged from the left; the last takes what is left, the undecided included.
     let (mut statistic, mut cells) = (0.0, 0_u32);

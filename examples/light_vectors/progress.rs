@@ -1,6 +1,8 @@
-//! Progress on the standard error if that is a terminal, and nothing otherwise.
+//! Progress on a terminal; nothing when the output or the errors are piped.
 
-use indicatif::{ProgressBar, ProgressStyle};
+use std::io::{self, IsTerminal};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 /// A bar that vanishes when it is dropped.
 pub struct Progress(ProgressBar);
@@ -10,7 +12,10 @@ impl Progress {
     pub fn new(what: &str, total: usize) -> Self {
         let style = ProgressStyle::with_template("{msg:28} {bar:40} {percent:>3} % {eta:>4} left")
             .unwrap_or_else(|_| ProgressStyle::default_bar());
-        Self(ProgressBar::new(total as u64).with_style(style).with_message(what.to_owned()))
+        // The bar is drawn on the standard error, and hides itself when that is no terminal.
+        let target =
+            if io::stdout().is_terminal() { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+        Self(ProgressBar::with_draw_target(Some(total as u64), target).with_style(style).with_message(what.to_owned()))
     }
 
     /// `steps` more are done.

@@ -3,12 +3,14 @@
 use std::{path::Path, time::Duration};
 
 use serde::Serialize;
-use steradian::{glam::DVec3, ilv::luminance};
 
 use crate::{
     error::JobError,
     reference::Reference,
-    tracer::render::{Rendering, View},
+    tracer::{
+        Deviation,
+        render::{Rendering, View},
+    },
 };
 
 /// One line of the table.
@@ -34,9 +36,9 @@ impl Row {
     /// The line of one rendering.
     pub fn new(view: &View, method: &str, cpu: Duration, rendering: &Rendering, reference: &Reference) -> Self {
         let lit = |pixel: &usize| view.lit(*pixel).is_some();
-        let everywhere = Deviation::over((0..view.visible.len()).filter(lit), &rendering.indirect, reference);
+        let everywhere = Deviation::over((0..view.visible.len()).filter(lit), &rendering.indirect, reference.halves());
         let in_shadow = |pixel: &usize| view.lit(*pixel).is_some_and(|s| view.scene.in_indirect_shadow(s.position));
-        let patch = Deviation::over((0..view.visible.len()).filter(in_shadow), &rendering.indirect, reference);
+        let patch = Deviation::over((0..view.visible.len()).filter(in_shadow), &rendering.indirect, reference.halves());
         let everywhere = everywhere.unwrap_or(Deviation { relative_rmse: f64::NAN, relative_bias: f64::NAN });
         Self {
             scene: view.scene.name.to_owned(),
@@ -52,33 +54,6 @@ impl Row {
             shadow_patch_relative_rmse: patch.map(|patch| patch.relative_rmse),
             shadow_patch_relative_bias: patch.map(|patch| patch.relative_bias),
         }
-    }
-}
-
-/// Error of a picture over a set of pixels, relative to the mean of the reference there.
-#[derive(Clone, Copy)]
-struct Deviation {
-    relative_rmse: f64,
-    relative_bias: f64,
-}
-
-impl Deviation {
-    /// `None` when there is no pixel, or when all of them are dark.
-    fn over(pixels: impl Iterator<Item = usize>, picture: &[DVec3], reference: &Reference) -> Option<Self> {
-        let [a, b] = reference.halves();
-        let (mut n, mut mean, mut square, mut bias) = (0.0, 0.0, 0.0, 0.0);
-        for pixel in pixels {
-            let (m, r1, r2) = (luminance(picture[pixel]), luminance(a[pixel]), luminance(b[pixel]));
-            n += 1.0;
-            mean += 0.5 * (r1 + r2);
-            square += (m - r1) * (m - r2);
-            bias += m - 0.5 * (r1 + r2);
-        }
-        (mean > 0.0).then(|| Self {
-            // Without the noise of the reference the estimate may fall below zero for a picture that is as good.
-            relative_rmse: (square.max(0.0) / n).sqrt() / (mean / n),
-            relative_bias: bias / mean,
-        })
     }
 }
 

@@ -20,6 +20,7 @@ pub mod bounds;
 mod camera;
 mod cornell;
 mod corridor;
+mod deviation;
 mod gather;
 mod light;
 pub mod render;
@@ -30,6 +31,7 @@ mod source;
 mod wander;
 
 pub use camera::Camera;
+pub use deviation::Deviation;
 pub use gather::cosine_stratified;
 pub use light::Light;
 pub use room::Room;
