@@ -49,7 +49,7 @@ fn number(text: &str) -> f64 {
 /// Runs of `test` under the probability of success `p`: where they stop, with the probability, and what is left.
 ///
 /// Runs of as many successes in as many observations are one.
-fn outcomes(test: &Sprt<Bernoulli>, p: f64, longest: u64) -> (Vec<(Run<Bernoulli>, f64)>, f64) {
+fn outcomes(test: &Sprt<Bernoulli>, p: f64, longest: u64) -> (Vec<(Run<'_, Bernoulli>, f64)>, f64) {
     let mut stopped = Vec::new();
     let mut live = BTreeMap::from([(0, (test.start(), 1.0))]);
     for _ in 0..longest {
@@ -79,14 +79,14 @@ fn outcomes(test: &Sprt<Bernoulli>, p: f64, longest: u64) -> (Vec<(Run<Bernoulli
 }
 
 /// A run of these counts: the observations in an order that does not stop before.
-fn run_to(test: &Sprt<Bernoulli>, n: u64, successes: u64) -> Run<Bernoulli> {
+fn run_to(test: &Sprt<Bernoulli>, n: u64, successes: u64) -> Run<'_, Bernoulli> {
     let (stopped, _) = outcomes(test, (successes as f64 + 0.5) / (n as f64 + 1.0), n);
     let found = stopped.into_iter().find(|(run, _)| (run.samples(), run.successes()) == (n, successes));
     found.unwrap_or_else(|| panic!("{test:?} does not end at {successes} of {n}")).0
 }
 
 /// Place in the order of the outcomes, restated: larger keys are more for H1.
-fn key(run: &Run<Bernoulli>) -> (i32, i64, u64) {
+fn key(run: &Run<'_, Bernoulli>) -> (i32, i64, u64) {
     let test = run.test();
     let (samples, successes) = (run.samples(), run.successes());
     let hits = if test.family().p1() > test.family().p0() { successes } else { samples - successes };
@@ -99,7 +99,7 @@ fn key(run: &Run<Bernoulli>) -> (i32, i64, u64) {
     }
 }
 
-fn infer(run: &Run<Bernoulli>) -> Inference {
+fn infer<'t>(run: &Run<'t, Bernoulli>) -> Inference<'t> {
     run.inference().unwrap_or_else(|error| panic!("{run:?}: {error}"))
 }
 

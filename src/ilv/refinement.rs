@@ -188,16 +188,16 @@ impl Refinement {
 }
 
 /// The running test of one cell.
-pub(super) struct Homogeneity {
-    run: Run<Bernoulli>,
+pub(super) struct Homogeneity<'r> {
+    run: Run<'r, Bernoulli>,
     mean: f64,
     half_width: f64,
     verdict: Option<Decision>,
 }
 
-impl Homogeneity {
+impl<'r> Homogeneity<'r> {
     /// Opens the test of a cell with the values of its first batch, which are counted in it.
-    pub(super) fn open(rule: &Refinement, first: &[f64]) -> Self {
+    pub(super) fn open(rule: &'r Refinement, first: &[f64]) -> Self {
         let mean = first.iter().sum::<f64>() / first.len() as f64;
         let largest = first.iter().copied().fold(0.0, f64::max);
         // The guard keeps the rounding of the mean from deciding an equality, which is in band.

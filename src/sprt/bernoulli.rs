@@ -1,6 +1,6 @@
 //! Outcomes that succeed or fail: two simple hypotheses about the probability of success.
 
-use super::{Bounds, Decision, Family};
+use super::{Band, Bounds, Decision, Family};
 use crate::float;
 
 const EPS: f64 = f64::EPSILON;
@@ -29,7 +29,6 @@ pub struct Bernoulli {
     p1: f64,
     success: Increment,
     failure: Increment,
-    scale: f64,
 }
 
 /// Logarithm of the likelihood ratio of one outcome, and what rounding leaves open.
@@ -38,18 +37,16 @@ pub(super) struct Increment {
     pub(super) value: f64,
     pub(super) highest: f64,
     pub(super) lowest: f64,
-    /// The value in fixed point, at most 2³⁸ and right to one unit.
-    fixed: i64,
 }
 
 impl Increment {
     /// The slack is four roundings, and `open`: what the inputs leave open when each is known to half a unit in the
     /// last place. The latter is capped, since a decision takes of the order of `spacing⁻²` outcomes: all their slack
     /// together stays a small part of the spacing between the values that the logarithm can take.
-    pub(super) fn new(value: f64, open: f64, spacing: f64, scale: f64) -> Self {
+    pub(super) fn new(value: f64, open: f64, spacing: f64) -> Self {
         let cap = value.abs() / 1_048_576.0 * (spacing * spacing).min(1.0);
         let slack = 4.0 * EPS * value.abs() + open.min(cap);
-        Self { value, highest: value + slack, lowest: value - slack, fixed: (value * scale) as i64 }
+        Self { value, highest: value + slack, lowest: value - slack }
     }
 }
 
@@ -83,13 +80,11 @@ impl Bernoulli {
         let success = ln_quotient(p1, p0, p1 - p0);
         let failure = ln_quotient(q1, q0, p0 - p1);
         let spacing = (success - failure).abs();
-        let scale = scale(success.abs().max(failure.abs()));
         Ok(Self {
             p0,
             p1,
-            success: Increment::new(success, EPS, spacing, scale),
-            failure: Increment::new(failure, EPS / 2.0 * (p0 / q0 + p1 / q1), spacing, scale),
-            scale,
+            success: Increment::new(success, EPS, spacing),
+            failure: Increment::new(failure, EPS / 2.0 * (p0 / q0 + p1 / q1), spacing),
         })
     }
 
@@ -138,79 +133,46 @@ impl Bernoulli {
     }
 }
 
-/// What a run keeps of Bernoulli outcomes: the number of successes, beside the boundaries in fixed point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Counts {
-    pub(super) successes: u64,
-    /// How far the logarithm of the ratio of no outcomes is above the lower boundary, in fixed point, modulo 2⁶⁴.
-    above: u64,
-    /// Strictly between the boundaries, whatever the rounding so far, up to this far above the lower one.
-    width: u64,
-}
-
-/// Observations up to which the fixed-point logarithm is used: it then errs by less than 2²⁴ units, and a ratio far
-/// outside the boundaries does not come back by overflow, for it stays below 2⁶² units.
-const FIXED_POINT_SAMPLES: u64 = 1 << 24;
-
-impl Counts {
-    /// Number of successes.
-    #[must_use]
-    pub const fn successes(&self) -> u64 {
-        self.successes
-    }
-}
-
 impl Family for Bernoulli {
     type Observation = bool;
-    type Statistic = Counts;
+    /// The number of successes.
+    type Statistic = u64;
 
-    fn empty(&self, bounds: &Bounds) -> Counts {
-        // Each outcome is off by a unit and by its slack at most; the conversions saturate.
+    fn empty(&self) -> u64 {
+        0
+    }
+
+    #[inline]
+    fn observe(&self, successes: &mut u64, success: bool) {
+        *successes += u64::from(success);
+    }
+
+    fn log_likelihood_ratio(&self, samples: u64, successes: &u64) -> f64 {
+        exact(*successes) * self.success.value + exact(samples - successes) * self.failure.value
+    }
+
+    #[inline]
+    fn decide(&self, samples: u64, successes: &u64, bounds: &Bounds) -> Option<Decision> {
+        self.decision(*successes, samples - successes, bounds)
+    }
+
+    fn band(&self, bounds: &Bounds) -> Band {
         let slack = (self.success.highest - self.success.value).max(self.failure.highest - self.failure.value);
-        let margin = FIXED_POINT_SAMPLES as f64 * (1.0 + slack * self.scale) + 4.0;
-        let edge = |ln: f64| ln.clamp(-LARGEST, LARGEST) as i64;
-        let lower = edge(bounds.accept_to() * self.scale + margin);
-        let upper = edge(bounds.reject_from() * self.scale - margin);
-        if lower < upper {
-            Counts { successes: 0, above: lower.wrapping_neg() as u64, width: (upper - lower) as u64 }
-        } else {
-            // 2⁶³ is farther from 0 than any run goes.
-            Counts { successes: 0, above: 1 << 63, width: 0 }
-        }
+        Band::new(self.success.value, self.failure.value, slack, bounds)
     }
 
     #[inline]
-    fn observe(&self, counts: &mut Counts, success: bool) {
-        counts.successes += u64::from(success);
+    fn is_between(&self, samples: u64, successes: &u64, band: &Band) -> bool {
+        band.holds(samples, *successes)
     }
 
-    fn log_likelihood_ratio(&self, samples: u64, counts: &Counts) -> f64 {
-        exact(counts.successes) * self.success.value + exact(samples - counts.successes) * self.failure.value
+    fn admits(&self, samples: u64, successes: &u64) -> bool {
+        *successes <= samples
     }
 
-    #[inline]
-    fn decide(&self, samples: u64, counts: &Counts, bounds: &Bounds) -> Option<Decision> {
-        self.decision(counts.successes, samples - counts.successes, bounds)
+    fn parameters(&self) -> [f64; 4] {
+        [1.0, self.p0, self.p1, 0.0]
     }
-
-    #[inline]
-    fn is_between(&self, samples: u64, counts: &Counts) -> bool {
-        // From the counts, for adding one increment or the other takes a branch that the rarer outcome mispredicts.
-        let (success, failure) = (self.success.fixed as u64, self.failure.fixed as u64);
-        let hits = counts.successes.wrapping_mul(success.wrapping_sub(failure));
-        let above = counts.above.wrapping_add(hits).wrapping_add(samples.wrapping_mul(failure));
-        above <= counts.width && samples < FIXED_POINT_SAMPLES
-    }
-}
-
-/// The largest boundary in fixed point; a run of [`FIXED_POINT_SAMPLES`] outcomes goes as far.
-const LARGEST: f64 = (1_u64 << 61) as f64;
-
-/// The power of two that brings the `largest` increment into `[2³⁷, 2³⁸)`, so that 2²⁴ of them make less than 2⁶².
-fn scale(largest: f64) -> f64 {
-    // The larger increment of two distinct doubles is at least 2⁻⁵⁴ and below 2¹⁰: neither power overflows.
-    let biased = largest.to_bits() >> 52;
-    f64::from_bits((1023 + 37 + 1023_u64).saturating_sub(biased) << 52)
 }
 
 /// A count as a double; a run holds at most 2⁵³ outcomes, so nothing is lost. Signed conversion is one instruction.

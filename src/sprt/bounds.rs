@@ -134,6 +134,14 @@ impl Bounds {
         self.ln_lower
     }
 
+    /// The numbers that the boundaries were made from, and which of the two kinds they are.
+    pub(super) const fn given(&self) -> [f64; 3] {
+        match self.given {
+            Given::Risks { alpha, beta } => [0.0, alpha, beta],
+            Given::Ratios { upper, lower } => [1.0, upper, lower],
+        }
+    }
+
     /// ln A, less what its inputs leave open: a logarithm from here on counts as having reached A.
     pub(super) const fn reject_from(&self) -> f64 {
         self.ln_upper - self.upper_slack

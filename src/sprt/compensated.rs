@@ -7,7 +7,14 @@
 ///
 /// # Source
 /// Neumaier (1974), Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+///
+/// Two that are NaN are equal if they are so to the bit.
+#[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(from = "[u64; 2]", into = "[u64; 2]")
+)]
 pub struct Sum {
     total: f64,
     lost: f64,
@@ -29,6 +36,28 @@ impl Sum {
     #[must_use]
     pub fn value(self) -> f64 {
         self.total + self.lost
+    }
+}
+
+impl PartialEq for Sum {
+    fn eq(&self, other: &Self) -> bool {
+        let bits = |x: f64| (x + 0.0).to_bits();
+        bits(self.total) == bits(other.total) && bits(self.lost) == bits(other.lost)
+    }
+}
+
+/// As it is stored: the bits, since a NaN has no decimals and some readers of decimals are off by a bit.
+#[cfg(feature = "serde")]
+impl From<Sum> for [u64; 2] {
+    fn from(sum: Sum) -> Self {
+        [sum.total.to_bits(), sum.lost.to_bits()]
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<[u64; 2]> for Sum {
+    fn from([total, lost]: [u64; 2]) -> Self {
+        Self { total: f64::from_bits(total), lost: f64::from_bits(lost) }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Bernoulli, Run, Step};
 
-impl Run<Bernoulli> {
+impl Run<'_, Bernoulli> {
     /// Takes a batch of outcomes whose order is not known.
     ///
     /// The batch is one indivisible observation: a look that it passes over is taken at its end instead, and so is
@@ -28,19 +28,14 @@ impl Run<Bernoulli> {
         if successes > trials {
             return Err(CountsError::Successes { successes, trials });
         }
-        if self.step == Step::Continue && trials > 0 {
+        if self.step() == Step::Continue && trials > 0 {
             // An undecided run is short of the limit, so its samples are below MAX_SAMPLES.
-            if trials > super::MAX_SAMPLES - self.samples {
-                return Err(CountsError::Trials { samples: self.samples, trials });
+            if trials > super::MAX_SAMPLES - self.samples() {
+                return Err(CountsError::Trials { samples: self.samples(), trials });
             }
-            self.samples += trials;
-            self.statistic.successes += successes;
-            if self.samples >= self.next_look {
-                self.postponed |= self.samples > self.next_look;
-                self.look();
-            }
+            self.take(trials, self.successes() + successes);
         }
-        Ok(self.step)
+        Ok(self.step())
     }
 
     /// Takes the `len` lowest bits of `bits` as outcomes, lowest first, and stops where one by one would stop.
@@ -51,7 +46,8 @@ impl Run<Bernoulli> {
     /// ```
     /// use steradian::sprt::{Bernoulli, Bounds, Decision, Sprt, Step};
     ///
-    /// let mut run = Sprt::new(Bernoulli::new(0.2, 0.6)?, Bounds::from_risks(0.3, 0.1)?).start();
+    /// let test = Sprt::new(Bernoulli::new(0.2, 0.6)?, Bounds::from_risks(0.3, 0.1)?);
+    /// let mut run = test.start();
     /// assert_eq!(run.push_bits(0b0110, 4), Step::Stop(Decision::RejectH0));
     /// assert_eq!(run.samples(), 3);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -59,14 +55,10 @@ impl Run<Bernoulli> {
     pub fn push_bits(&mut self, bits: u64, len: u32) -> Step {
         let (mut bits, mut left) = (bits, len.min(64));
         let mut block = left;
-        while left > 0 && self.step == Step::Continue {
+        while left > 0 && self.step() == Step::Continue {
             block = block.min(left);
             if block > 1 && self.takes_whole(bits, block) {
-                self.samples += u64::from(block);
-                self.statistic.successes += ones(bits, block);
-                if self.samples >= self.next_look {
-                    self.next_look = self.test.look_after(self.samples);
-                }
+                self.take_quietly(u64::from(block), self.successes() + ones(bits, block));
             } else if block > 4 {
                 block /= 2;
                 continue;
@@ -78,20 +70,20 @@ impl Run<Bernoulli> {
             bits = bits.checked_shr(block).unwrap_or(0);
             block = left;
         }
-        self.step
+        self.step()
     }
 
     /// Whether the run is sure to go on through the next `block` outcomes, whatever their order: all the failures
     /// first and all the successes first both stay between the boundaries, and the limit is farther.
     fn takes_whole(&self, bits: u64, block: u32) -> bool {
-        let end = self.samples + u64::from(block);
-        let successes = self.statistic.successes();
-        let (failures, gained) = (self.samples - successes, ones(bits, block));
+        let (samples, successes, test) = (self.samples(), self.successes(), self.test());
+        let end = samples + u64::from(block);
+        let (failures, gained) = (samples - successes, ones(bits, block));
         let lost = u64::from(block) - gained;
-        let reached = |s, f| self.test.family().reached(s, f, self.test.bounds());
+        let reached = |s, f| test.family().reached(s, f, test.bounds());
         let between = |s, f| reached(s, f) == (false, false);
-        end < self.test.limit()
-            && (end < self.next_look || between(successes + gained, failures) && between(successes, failures + lost))
+        end < test.limit()
+            && (self.is_quiet_to(end) || between(successes + gained, failures) && between(successes, failures + lost))
     }
 }
 
@@ -147,20 +139,24 @@ mod tests {
     #[test]
     fn a_batch_postpones_the_looks_inside_it_to_its_end() -> Result<(), Box<dyn core::error::Error>> {
         // Four successes at first would have rejected at 4; after ten failures more the ratio is within the bounds.
-        let mut run = test()?.start();
+        let design = test()?;
+        let mut run = design.start();
         assert_eq!(run.push_counts(4, 14)?, Step::Continue);
         // A look was due at 10; the batch ends at 11 and is looked at there, then the schedule goes on at 12.
-        let mut run = test()?.looks(Looks::from(10).every(2)).start();
+        let design = test()?.looks(Looks::from(10).every(2));
+        let mut run = design.start();
         assert_eq!(run.push_counts(2, 11)?, Step::Continue);
         assert_eq!(run.push(true), Step::Continue);
-        let mut run = test()?.looks(Looks::from(10).every(2)).start();
+        let design = test()?.looks(Looks::from(10).every(2));
+        let mut run = design.start();
         assert_eq!(run.push_counts(11, 11)?, Step::Stop(Decision::RejectH0));
         Ok(())
     }
 
     #[test]
     fn a_batch_may_pass_the_limit() -> Result<(), Box<dyn core::error::Error>> {
-        let mut run = test()?.truncate(12).start();
+        let design = test()?.truncate(12);
+        let mut run = design.start();
         assert_eq!(run.push_counts(4, 14)?, Step::Exhausted);
         assert_eq!((run.push_counts(9, 9)?, run.samples()), (Step::Exhausted, 14));
         Ok(())
@@ -168,7 +164,8 @@ mod tests {
 
     #[test]
     fn a_batch_that_cannot_be_is_refused_and_changes_nothing() -> Result<(), Box<dyn core::error::Error>> {
-        let mut run = test()?.start();
+        let design = test()?;
+        let mut run = design.start();
         let before = run;
         assert_eq!(run.push_counts(2, 1), Err(CountsError::Successes { successes: 2, trials: 1 }));
         let trials = MAX_SAMPLES + 1;
@@ -180,10 +177,12 @@ mod tests {
 
     #[test]
     fn packed_bits_stop_inside_the_word() -> Result<(), Box<dyn core::error::Error>> {
-        let mut run = test()?.start();
+        let design = test()?;
+        let mut run = design.start();
         assert_eq!(run.push_bits(u64::MAX, 99), Step::Stop(Decision::RejectH0));
         assert_eq!((run.samples(), run.successes()), (3, 3));
-        let mut run = test()?.looks(Looks::from(64)).start();
+        let design = test()?.looks(Looks::from(64));
+        let mut run = design.start();
         assert_eq!(run.push_bits(0, 99), Step::Stop(Decision::AcceptH0));
         assert_eq!((run.samples(), run.push_bits(1, 0)), (64, Step::Stop(Decision::AcceptH0)));
         Ok(())

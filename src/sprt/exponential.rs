@@ -1,8 +1,8 @@
 //! Waiting times: two simple hypotheses about the rate of exponential observations.
 
+use super::Family;
 use super::bernoulli::{exact, ln_quotient};
 use super::compensated::Sum;
-use super::{Bounds, Family};
 
 /// A rate of `rate0` (H0) against `rate1` (H1) of exponential observations, whose mean is the inverse of the rate.
 ///
@@ -21,7 +21,8 @@ use super::{Bounds, Family};
 /// ```
 /// use steradian::sprt::{Bounds, Decision, Exponential, Sprt, Step};
 ///
-/// let mut run = Sprt::new(Exponential::new(1.0, 2.0)?, Bounds::from_ratios(3.0, 1.0 / 3.0)?).start();
+/// let test = Sprt::new(Exponential::new(1.0, 2.0)?, Bounds::from_ratios(3.0, 1.0 / 3.0)?);
+/// let mut run = test.start();
 /// assert_eq!(run.push(0.5), Step::Continue); // 2/√e = 1.21
 /// assert_eq!(run.push(0.25), Step::Continue); // 4/e^0.75 = 1.89
 /// assert_eq!(run.push(0.125), Step::Stop(Decision::RejectH0)); // 8/e^0.875 = 3.33
@@ -99,7 +100,7 @@ impl Family for Exponential {
     /// The total time.
     type Statistic = Sum;
 
-    fn empty(&self, _: &Bounds) -> Sum {
+    fn empty(&self) -> Sum {
         Sum::default()
     }
 
@@ -110,6 +111,15 @@ impl Family for Exponential {
 
     fn log_likelihood_ratio(&self, samples: u64, time: &Sum) -> f64 {
         exact(samples) * self.observation + time.value() * self.time_increment()
+    }
+
+    fn admits(&self, _: u64, time: &Sum) -> bool {
+        // NaN is what an observation that is no time leaves.
+        !(time.value() < 0.0)
+    }
+
+    fn parameters(&self) -> [f64; 4] {
+        [4.0, self.rate0, self.rate1, 0.0]
     }
 }
 
@@ -172,7 +182,7 @@ impl core::error::Error for ExponentialError {}
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Sprt, Step};
+    use super::super::{Bounds, Sprt, Step};
     use super::*;
 
     #[test]

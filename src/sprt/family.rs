@@ -1,6 +1,6 @@
 //! What a test must know of a family of distributions.
 
-use super::{Bounds, Decision};
+use super::{Band, Bounds, Decision};
 
 /// Two simple hypotheses about the distribution of independent observations, seen through their likelihood ratio.
 ///
@@ -22,7 +22,7 @@ use super::{Bounds, Decision};
 /// impl Family for UnitShift {
 ///     type Observation = f64;
 ///     type Statistic = f64; // the sum
-///     fn empty(&self, _: &Bounds) -> f64 {
+///     fn empty(&self) -> f64 {
 ///         0.0
 ///     }
 ///     fn observe(&self, sum: &mut f64, x: f64) {
@@ -45,8 +45,8 @@ pub trait Family: Copy {
     /// What a run keeps of its observations.
     type Statistic: Copy + core::fmt::Debug + PartialEq;
 
-    /// The statistic of no observations, for a test with these boundaries.
-    fn empty(&self, bounds: &Bounds) -> Self::Statistic;
+    /// The statistic of no observations.
+    fn empty(&self) -> Self::Statistic;
 
     /// Adds one observation to the statistic.
     fn observe(&self, statistic: &mut Self::Statistic, observation: Self::Observation);
@@ -69,11 +69,30 @@ pub trait Family: Copy {
         }
     }
 
+    /// What [`is_between`](Self::is_between) is asked with; the provided method gives the band that says nothing.
+    fn band(&self, bounds: &Bounds) -> Band {
+        let _ = bounds;
+        Band::default()
+    }
+
     /// Whether the ratio is sure to be strictly between the boundaries; `false` where a closer look is needed.
     ///
-    /// A shortcut for [`decide`](Self::decide), asked before it at every look; the provided method always says `false`.
-    fn is_between(&self, samples: u64, statistic: &Self::Statistic) -> bool {
-        let _ = (samples, statistic);
+    /// A shortcut for [`decide`](Self::decide), asked before it; the provided method always says `false`.
+    fn is_between(&self, samples: u64, statistic: &Self::Statistic, band: &Band) -> bool {
+        let _ = (samples, statistic, band);
         false
+    }
+
+    /// Whether so many observations, at least one, can lead to this statistic: asked of a stored state, before
+    /// anything else is. The provided method admits all.
+    fn admits(&self, samples: u64, statistic: &Self::Statistic) -> bool {
+        let _ = (samples, statistic);
+        true
+    }
+
+    /// Numbers that tell this family and its hypotheses from others, so that the stored state of a run is not resumed
+    /// by another test. The provided method tells nothing: then only boundaries, looks and limits are compared.
+    fn parameters(&self) -> [f64; 4] {
+        [0.0; 4]
     }
 }

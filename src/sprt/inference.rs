@@ -35,7 +35,7 @@ const SURE: f64 = 1e-6;
 /// Steps in all: bisection of [`LOG_ODDS`] down to the last bit takes 60.
 const STEPS: u32 = NEWTON + 64;
 
-impl<F: Family> Run<F> {
+impl<F: Family> Run<'_, F> {
     /// The likelihood ratio so far, as evidence against H0: its expectation under H0 is 1.
     ///
     /// Valid at any time and under any stopping rule, whether or not the run has stopped: under H0 the probability
@@ -51,7 +51,8 @@ impl<F: Family> Run<F> {
     /// ```
     /// use steradian::sprt::{Bernoulli, Bounds, Sprt};
     ///
-    /// let mut run = Sprt::new(Bernoulli::new(0.25, 0.5)?, Bounds::from_risks(0.05, 0.1)?).start();
+    /// let test = Sprt::new(Bernoulli::new(0.25, 0.5)?, Bounds::from_risks(0.05, 0.1)?);
+    /// let mut run = test.start();
     /// let _ = (run.push(true), run.push(true), run.push(false));
     /// assert!((run.e_value() - 2.0 * 2.0 * (0.5 / 0.75)).abs() < 1e-14); // still undecided
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -63,7 +64,7 @@ impl<F: Family> Run<F> {
     }
 }
 
-impl Run<Bernoulli> {
+impl<'t> Run<'t, Bernoulli> {
     /// Exact inference from a run that has stopped, decided or exhausted.
     ///
     /// # Errors
@@ -85,7 +86,7 @@ impl Run<Bernoulli> {
     /// assert_eq!((interval.upper(), after.maximum_likelihood()), (1.0, 1.0));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn inference(&self) -> Result<Inference, InferenceError> {
+    pub fn inference(&self) -> Result<Inference<'t>, InferenceError> {
         self.inference_within(CHARACTERISTIC_WORK)
     }
 
@@ -94,11 +95,11 @@ impl Run<Bernoulli> {
     ///
     /// # Errors
     /// As for [`inference`](Self::inference), with this budget.
-    pub fn inference_within(&self, work: u64) -> Result<Inference, InferenceError> {
+    pub fn inference_within(&self, work: u64) -> Result<Inference<'t>, InferenceError> {
         if self.step() == Step::Continue {
             return Err(InferenceError::Undecided { samples: self.samples() });
         }
-        if self.postponed {
+        if self.is_postponed() {
             return Err(InferenceError::Schedule { samples: self.samples() });
         }
         let mut after = Inference { run: *self, work, p_value: 1.0, median_unbiased: 0.5 };
@@ -121,8 +122,8 @@ impl Run<Bernoulli> {
 /// of where that probability is the one asked for, or of the nearest double below 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
-pub struct Inference {
-    run: Run<Bernoulli>,
+pub struct Inference<'t> {
+    run: Run<'t, Bernoulli>,
     work: u64,
     p_value: f64,
     median_unbiased: f64,
@@ -139,7 +140,7 @@ enum Split {
     Above,
 }
 
-impl Inference {
+impl<'t> Inference<'t> {
     /// Probability under `p0` of an outcome at least as large as the observed one.
     ///
     /// Relative accuracy down to 1e-280; what is smaller reads as that.
@@ -214,7 +215,7 @@ impl Inference {
     }
 
     /// The run that this was inferred from.
-    pub const fn run(&self) -> &Run<Bernoulli> {
+    pub const fn run(&self) -> &Run<'t, Bernoulli> {
         &self.run
     }
 
@@ -396,7 +397,8 @@ mod tests {
 
     #[test]
     fn nothing_is_inferred_from_a_run_that_goes_on() -> Result<(), Failure> {
-        let mut run = test()?.start();
+        let design = test()?;
+        let mut run = design.start();
         assert_eq!(run.inference(), Err(InferenceError::Undecided { samples: 0 }));
         let _ = run.push(true);
         assert_eq!(run.inference(), Err(InferenceError::Undecided { samples: 1 }));
@@ -406,15 +408,18 @@ mod tests {
 
     #[test]
     fn nothing_is_inferred_from_a_run_off_its_schedule() -> Result<(), Failure> {
-        let mut run = test()?.start();
+        let design = test()?;
+        let mut run = design.start();
         let _ = run.push_counts(9, 9)?;
         assert_eq!(run.inference(), Err(InferenceError::Schedule { samples: 9 }));
         // One by one the test may end at these counts, but not by the law of a single look.
-        let mut run = test()?.start();
+        let design = test()?;
+        let mut run = design.start();
         let _ = run.push_counts(4, 9)?;
         assert_eq!(run.inference(), Err(InferenceError::Schedule { samples: 9 }));
         // A batch that stops short of the look, or ends on it, postpones nothing.
-        let mut run = test()?.looks(Looks::from(10).every(2)).start();
+        let design = test()?.looks(Looks::from(10).every(2));
+        let mut run = design.start();
         let _ = (run.push_counts(3, 8)?, run.push_counts(2, 2)?);
         assert!(run.inference().is_ok());
         Ok(())
@@ -438,7 +443,8 @@ mod tests {
 
     #[test]
     fn levels_and_probabilities_are_checked() -> Result<(), Failure> {
-        let after = test()?.decide([true; 3]).inference()?;
+        let design = test()?;
+        let after = design.decide([true; 3]).inference()?;
         for bad in [f64::NAN, 0.0, 1.0, -0.5, f64::INFINITY] {
             assert!(matches!(after.confidence_interval(bad), Err(InferenceError::Level { .. })));
         }
@@ -450,7 +456,8 @@ mod tests {
 
     #[test]
     fn extreme_levels_keep_the_limits_in_order() -> Result<(), Failure> {
-        let after = test()?.decide([true, true, false, false, true, true]).inference()?;
+        let design = test()?;
+        let after = design.decide([true, true, false, false, true, true]).inference()?;
         let mut inner = (after.median_unbiased(), after.median_unbiased());
         for level in [f64::MIN_POSITIVE, 0.5, 0.999999, 1.0 - f64::EPSILON, 1.0 - f64::EPSILON / 2.0] {
             let interval = after.confidence_interval(level)?;
@@ -466,7 +473,8 @@ mod tests {
 
     #[test]
     fn a_run_beyond_the_budget_is_refused() -> Result<(), Failure> {
-        let run = test()?.decide([true; 3]);
+        let design = test()?;
+        let run = design.decide([true; 3]);
         assert!(matches!(run.inference_within(40), Err(InferenceError::Work { .. })));
         Ok(())
     }

@@ -46,6 +46,8 @@ impl Looks {
     pub(super) const fn after(&self, samples: u64) -> u64 {
         if samples < self.first() {
             self.first()
+        } else if self.step == 1 {
+            samples.saturating_add(1)
         } else {
             samples.saturating_add(self.step() - (samples - self.first()) % self.step())
         }

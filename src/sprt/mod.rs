@@ -42,6 +42,7 @@
 //! Sequential Analysis.
 
 mod approximation;
+mod band;
 mod bernoulli;
 mod bounds;
 mod calibration;
@@ -66,13 +67,13 @@ mod poisson_law;
 mod poisson_terms;
 mod recursion;
 mod run;
+mod run_state;
 mod sequential;
-#[cfg(feature = "serde")]
-mod stored_run;
 mod tails;
 
 pub use approximation::Approximation;
-pub use bernoulli::{Bernoulli, BernoulliError, Counts};
+pub use band::Band;
+pub use bernoulli::{Bernoulli, BernoulliError};
 pub use bounds::{Bounds, BoundsError};
 pub use calibration::{CALIBRATION_ROUNDING, CALIBRATION_WORK, Calibration, CalibrationError};
 pub use characteristic::{CHARACTERISTIC_WORK, Characteristic, CharacteristicError, LawPoint};
@@ -87,4 +88,5 @@ pub use normal::{Normal, NormalError};
 pub use plan::SamplePlan;
 pub use poisson::{Poisson, PoissonError};
 pub use run::{Decision, Run, Step};
+pub use run_state::{ResumeError, RunState};
 pub use sequential::{MAX_SAMPLES, Sprt};

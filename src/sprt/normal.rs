@@ -1,7 +1,7 @@
 //! Normal observations of known deviation: two simple hypotheses about their mean.
 
+use super::Family;
 use super::compensated::Sum;
-use super::{Bounds, Family};
 
 /// A mean of `mean0` (H0) against `mean1` (H1) of normal observations whose deviation σ is known.
 ///
@@ -123,7 +123,7 @@ impl Family for Normal {
     /// The sum of the distances from the middle of the two means.
     type Statistic = Sum;
 
-    fn empty(&self, _: &Bounds) -> Sum {
+    fn empty(&self) -> Sum {
         Sum::default()
     }
 
@@ -136,6 +136,10 @@ impl Family for Normal {
 
     fn log_likelihood_ratio(&self, _samples: u64, sum: &Sum) -> f64 {
         self.shift * (sum.value() / self.deviation)
+    }
+
+    fn parameters(&self) -> [f64; 4] {
+        [2.0, self.mean0, self.mean1, self.deviation]
     }
 }
 
@@ -211,7 +215,7 @@ impl core::error::Error for NormalError {}
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Sprt, Step};
+    use super::super::{Bounds, Sprt, Step};
     use super::*;
 
     #[test]
@@ -250,7 +254,8 @@ mod tests {
         assert_eq!(far.decide((0..100).map(sum(1e9))).log_likelihood_ratio(), ratio);
         // The middle, 2⁵³ + 1, is no double.
         let huge = 2.0_f64.powi(53);
-        let run = Sprt::new(Normal::new(huge, huge + 2.0, 8.0)?, bounds).decide([huge; 9]);
+        let test = Sprt::new(Normal::new(huge, huge + 2.0, 8.0)?, bounds);
+        let run = test.decide([huge; 9]);
         assert_eq!(run.log_likelihood_ratio(), -0.25 * 9.0 / 8.0);
         Ok(())
     }

@@ -25,7 +25,8 @@ const LARGEST: u64 = i64::MAX as u64;
 /// ```
 /// use steradian::sprt::{Bounds, Decision, Poisson, Sprt, Step};
 ///
-/// let mut run = Sprt::new(Poisson::new(1.0, 2.0)?, Bounds::from_ratios(19.0, 1.0 / 19.0)?).start();
+/// let test = Sprt::new(Poisson::new(1.0, 2.0)?, Bounds::from_ratios(19.0, 1.0 / 19.0)?);
+/// let mut run = test.start();
 /// assert_eq!(run.push(3), Step::Continue); // 8/e
 /// assert_eq!(run.push(4), Step::Continue); // 128/e² = 17.3
 /// assert_eq!(run.push(2), Step::Stop(Decision::RejectH0)); // 512/e³ = 25.5
@@ -76,8 +77,8 @@ impl Poisson {
         Ok(Self {
             rate0,
             rate1,
-            event: Increment::new(event, EPS, event.abs(), 0.0),
-            observation: Increment::new(rate0 - rate1, open, event.abs(), 0.0),
+            event: Increment::new(event, EPS, event.abs()),
+            observation: Increment::new(rate0 - rate1, open, event.abs()),
         })
     }
 
@@ -127,7 +128,7 @@ impl Family for Poisson {
     /// The total count.
     type Statistic = u64;
 
-    fn empty(&self, _: &Bounds) -> u64 {
+    fn empty(&self) -> u64 {
         0
     }
 
@@ -143,6 +144,10 @@ impl Family for Poisson {
     #[inline]
     fn decide(&self, samples: u64, events: &u64, bounds: &Bounds) -> Option<Decision> {
         self.decision(*events, samples, bounds)
+    }
+
+    fn parameters(&self) -> [f64; 4] {
+        [3.0, self.rate0, self.rate1, 0.0]
     }
 }
 

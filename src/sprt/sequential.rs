@@ -1,6 +1,6 @@
 //! The test itself: a family, two boundaries, a schedule of looks and a limit.
 
-use super::{Bounds, Family, Looks, Run};
+use super::{Band, Bounds, Family, Looks, Run, band};
 
 /// The number of observations after which a run is exhausted at the latest, 2⁵³: every count below is a double.
 pub const MAX_SAMPLES: u64 = 1 << 53;
@@ -37,29 +37,33 @@ pub const MAX_SAMPLES: u64 = 1 << 53;
 #[must_use]
 pub struct Sprt<F: Family> {
     family: F,
-    /// The statistic that a run starts from.
-    empty: F::Statistic,
     bounds: Bounds,
     looks: Looks,
     limit: u64,
+    /// The first look, the limit included, and the observations up to which the band is asked.
+    first: u64,
+    watched: u64,
+    band: Band,
 }
 
 impl<F: Family> Sprt<F> {
     /// A test that looks after every observation and has no limit.
     pub fn new(family: F, bounds: Bounds) -> Self {
-        Self { family, empty: family.empty(&bounds), bounds, looks: Looks::default(), limit: MAX_SAMPLES }
+        let (looks, band) = (Looks::default(), family.band(&bounds));
+        Self { family, bounds, looks, limit: MAX_SAMPLES, first: looks.first(), watched: band::SAMPLES, band }
     }
 
     /// The same test with this schedule of looks.
     pub fn looks(self, looks: Looks) -> Self {
-        Self { looks, ..self }
+        Self { looks, first: looks.first().min(self.limit), ..self }
     }
 
     /// The same test, exhausted if it is undecided after `samples` observations.
     ///
     /// Zero reads as 1; [`MAX_SAMPLES`] and above mean no limit.
     pub fn truncate(self, samples: u64) -> Self {
-        Self { limit: samples.clamp(1, MAX_SAMPLES), ..self }
+        let limit = samples.clamp(1, MAX_SAMPLES);
+        Self { limit, first: self.looks.first().min(limit), watched: limit.min(band::SAMPLES), ..self }
     }
 
     /// The family of distributions and its two hypotheses.
@@ -84,9 +88,22 @@ impl<F: Family> Sprt<F> {
         if self.limit < MAX_SAMPLES { Some(self.limit) } else { None }
     }
 
-    /// The statistic that a run starts from.
-    pub(super) const fn empty(&self) -> F::Statistic {
-        self.empty
+    /// Where a ratio of counts is sure to be between the boundaries.
+    #[inline]
+    pub(super) const fn band(&self) -> &Band {
+        &self.band
+    }
+
+    /// Below so many observations the band is right, and the limit is not reached.
+    #[inline]
+    pub(super) const fn watched(&self) -> u64 {
+        self.watched
+    }
+
+    /// The first look; reaching the limit is a look.
+    #[inline]
+    pub(super) const fn first_look(&self) -> u64 {
+        self.first
     }
 
     /// The limit in force, [`MAX_SAMPLES`] for a test without one.
@@ -108,8 +125,8 @@ impl<F: Family> Sprt<F> {
 
 impl<F: Family> Sprt<F> {
     /// A run of this test, before its first observation.
-    pub fn start(&self) -> Run<F> {
-        Run::new(*self)
+    pub fn start(&self) -> Run<'_, F> {
+        Run::new(self)
     }
 
     /// Runs the test on the observations, taking no more of them than it needs.
@@ -128,7 +145,7 @@ impl<F: Family> Sprt<F> {
     /// assert_eq!(outcomes.len(), 1);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn decide<I: IntoIterator<Item = F::Observation>>(&self, observations: I) -> Run<F> {
+    pub fn decide<I: IntoIterator<Item = F::Observation>>(&self, observations: I) -> Run<'_, F> {
         let mut run = self.start();
         run.extend(observations);
         run

@@ -53,7 +53,7 @@ pub fn bounds(first: f64, second: f64, as_risks: bool) -> Result<Bounds, BoundsE
 }
 
 /// What holds of a run at any time.
-pub fn run(run: &Run<Bernoulli>) {
+pub fn run(run: &Run<'_, Bernoulli>) {
     assert!(run.successes() <= run.samples() && run.samples() <= MAX_SAMPLES, "{run:?}");
     assert!(!run.log_likelihood_ratio().is_nan(), "{run:?}");
     let limit = run.test().truncation().unwrap_or(MAX_SAMPLES);
