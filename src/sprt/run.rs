@@ -90,16 +90,16 @@ impl<'t, F: Family> Run<'t, F> {
             (self.samples, self.statistic) = (samples, statistic);
             return Step::Continue;
         }
-        *self = self.attended(samples, statistic);
+        (self.samples, self.quiet, self.statistic) = self.attended(samples, statistic);
         self.step()
     }
 
     /// What one observation, after which the run is not sure to go on, made of it.
     ///
-    /// By value: a run whose address goes to a function stays in memory, where every observation would wait for the
-    /// one before to be stored.
+    /// By value, and without the test: a run whose address goes to a function stays in memory, where every observation
+    /// would wait for the one before to be stored, and a test that may have changed is loaded anew.
     #[inline(never)]
-    fn attended(mut self, samples: u64, statistic: F::Statistic) -> Self {
+    fn attended(mut self, samples: u64, statistic: F::Statistic) -> (u64, u64, F::Statistic) {
         if self.step() == Step::Continue {
             (self.samples, self.statistic) = (samples, statistic);
             let look = self.test.look_after(samples - 1);
@@ -109,7 +109,7 @@ impl<'t, F: Family> Run<'t, F> {
                 self.look();
             }
         }
-        self
+        (self.samples, self.quiet, self.statistic)
     }
 
     /// Takes a batch as one observation, for a run that goes on and a statistic that has it.
