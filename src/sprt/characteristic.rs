@@ -3,6 +3,7 @@
 use alloc::vec::Vec;
 
 use super::compensated::Sum;
+use super::forward::Misplaced;
 use super::recursion::{self, Outcome};
 use super::{Bernoulli, Sprt};
 
@@ -36,6 +37,9 @@ pub struct Characteristic {
     beyond: f64,
     /// Bound of the relative error that one more observation adds to a probability.
     growth: f64,
+    /// Bounds of the mass that the method put in the wrong place, and of its part in the mean.
+    misplaced: f64,
+    misplaced_samples: f64,
     #[cfg_attr(feature = "serde", serde(serialize_with = "sequence"))]
     law: Vec<LawPoint>,
 }
@@ -157,8 +161,16 @@ impl Characteristic {
             last,
             beyond,
             growth,
+            misplaced: 0.0,
+            misplaced_samples: 0.0,
             law,
         }
+    }
+
+    /// The same with this mass in the wrong place, `ahead` bounding the mean number of observations from any place.
+    pub(super) fn misplacing(self, misplaced: Misplaced, ahead: f64) -> Self {
+        let Misplaced { mass, samples } = misplaced;
+        Self { misplaced: mass, misplaced_samples: samples + mass * (ahead + self.mean_samples), ..self }
     }
 
     /// Probability of accepting H0.
@@ -236,22 +248,24 @@ impl Characteristic {
         &self.law
     }
 
-    /// Bound of the absolute error of `accept`, `reject` and `undecided`. Proven for counts.
+    /// Bound of the absolute error of `accept`, `reject` and `undecided`, proven.
     ///
     /// For Bernoulli tests: the probability of n given outcomes takes 3n roundings at most, those of its sum
     /// included, so the sums err by at most 3·E\[N\] roundings; dividing by the total doubles that. The probability still undecided at the end of the
-    /// recursion belongs to one side or the other. The other families take more roundings for an observation, and say
-    /// in their `characteristic` what else the bound covers and on what evidence.
+    /// recursion belongs to one side or the other. The other families take more roundings for an observation, and add
+    /// the errors of their method; they say in their `characteristic` what the proof assumes.
     #[must_use]
     pub fn error_bound(&self) -> f64 {
-        self.remainder + 2.0 * self.growth * self.mean_samples + 8.0 * UNIT
+        self.remainder + 2.0 * (self.growth * self.mean_samples + self.misplaced) + 8.0 * UNIT
     }
 
     /// Bound of the absolute error of `mean_samples`, as for [`error_bound`](Self::error_bound).
     #[must_use]
     pub fn mean_error_bound(&self) -> f64 {
         let square = self.variance_samples() + self.mean_samples * self.mean_samples;
-        self.remainder * self.beyond + 2.0 * self.growth * square + 8.0 * self.mean_samples * UNIT
+        self.remainder * self.beyond
+            + 2.0 * (self.growth * square + self.misplaced_samples)
+            + 8.0 * self.mean_samples * UNIT
     }
 }
 

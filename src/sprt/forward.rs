@@ -29,6 +29,26 @@ pub(super) struct Exit {
     pub work: u64,
 }
 
+/// What errors of a walk may have put in the wrong place.
+///
+/// A walk that is exact but for one look, where it misplaces a mass, misplaces no more from there on: carrying a
+/// difference of two densities to the next look and taking away what is decided does not increase its total variation.
+/// So the masses of all looks add up to a bound of the error of every probability. The mean is off by a mass times the
+/// observations that it had, or may still have before it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Misplaced {
+    pub mass: f64,
+    /// Each mass times the observations by then.
+    pub samples: f64,
+}
+
+impl Misplaced {
+    pub(super) fn add(&mut self, mass: f64, samples: u64) {
+        self.mass += mass;
+        self.samples += mass * samples as f64;
+    }
+}
+
 /// The law of `test`, whose walk ends below with the decision `low` and above with the other one.
 pub(super) fn law<F: Family>(
     test: &Sprt<F>,

@@ -27,6 +27,10 @@ pub(super) struct Panel {
     pub partial: Vec<f64>,
     /// Weights of the integral of the density.
     pub mass: Vec<f64>,
+    /// Weights of the coefficient of the last Legendre polynomial.
+    pub last: Vec<f64>,
+    /// For each node, the largest of its weights in the integral of the polynomial and those to the end, made positive.
+    pub largest: Vec<f64>,
 }
 
 impl Panel {
@@ -51,11 +55,17 @@ impl Panel {
                 at.iter().zip(&moments).enumerate().map(|(j, (p, moment))| (j as f64 + 0.5) * p * moment).sum();
             half * weight * sum
         });
+        let whole: Vec<f64> = rule.iter().map(|(_, weight)| half * weight).collect();
+        let largest = partial.chunks_exact(count).zip(&whole);
+        let largest =
+            largest.map(|(weights, whole)| weights.iter().fold(*whole, |most, weight| most.max(weight.abs())));
         Self {
             width,
+            largest: largest.collect(),
+            last: rule.iter().zip(&at_nodes).map(|((_, w), at)| (count as f64 - 0.5) * w * at[count - 1]).collect(),
             decay: float::exp(-rate * width),
             to_end: rule.iter().map(|(x, _)| half * (1.0 - x)).collect(),
-            whole: rule.iter().map(|(_, weight)| half * weight).collect(),
+            whole,
             mass: mass.collect(),
             partial,
         }
