@@ -5,7 +5,7 @@ use std::{error::Error, io::Write};
 use serde::Deserialize;
 use steradian::sprt::Approximation;
 
-use super::forms::design;
+use super::design;
 
 #[derive(Deserialize)]
 struct Oracle {

@@ -1,9 +1,8 @@
-//! What the sequential test costs, how exact it is, and what it does where doubles go astray.
+//! How exact the sequential test is, and what it does where doubles go astray.
 //!
-//! Prints the three tables of `docs/sprt.md` in Markdown: `speed` (each form of a test and another library on the
-//! same stream, in turns, then the exact characteristic), `accuracy` (exact and approximate characteristics against
-//! the values of 20 digits in `tests/oracles/sprt.json`) and `ties` (ratios that lie exactly on a boundary). Name
-//! some of them to have those only; times need `--release`.
+//! Prints two tables of `docs/sprt.md` in Markdown: `accuracy` (exact and approximate characteristics against the values
+//! of 20 digits in `tests/oracles/sprt.json`) and `ties` (ratios that lie exactly on a boundary). Name one of them to
+//! have it alone. What everything costs: `cargo bench --bench sprt`.
 
 use std::{
     error::Error,
@@ -12,30 +11,29 @@ use std::{
 };
 
 use clap::{Parser, ValueEnum};
+use steradian::sprt::{Bernoulli, Bounds, Sprt};
 
 mod accuracy;
-#[allow(dead_code, reason = "leaves a part of it to the bench")]
-#[path = "../../benches/sprt_forms/mod.rs"]
-mod forms;
-mod speed;
 mod ties;
 
 /// The tables of `docs/sprt.md`.
 #[derive(Parser)]
 struct Options {
     /// Which tables to print
-    #[arg(value_enum, default_values_t = [Table::Speed, Table::Accuracy, Table::Ties])]
+    #[arg(value_enum, default_values_t = [Table::Accuracy, Table::Ties])]
     tables: Vec<Table>,
-    /// Rounds of measurement, each of which times everything once
-    #[arg(long, default_value_t = 31, value_parser = clap::value_parser!(u16).range(1..))]
-    rounds: u16,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
 enum Table {
-    Speed,
     Accuracy,
     Ties,
+}
+
+/// A test of `p0` against `p1` with Wald's boundaries.
+fn design(p0: f64, p1: f64, alpha: f64, beta: f64) -> Sprt<Bernoulli> {
+    let family = Bernoulli::new(p0, p1).expect("hypotheses");
+    Sprt::new(family, Bounds::from_risks(alpha, beta).expect("risks"))
 }
 
 fn main() -> ExitCode {
@@ -59,7 +57,6 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
             writeln!(out)?;
         }
         match table {
-            Table::Speed => speed::print(&mut out, options.rounds)?,
             Table::Accuracy => accuracy::print(&mut out)?,
             Table::Ties => ties::print(&mut out)?,
         }

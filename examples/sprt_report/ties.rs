@@ -5,7 +5,7 @@
 
 use std::{collections::BTreeMap, error::Error, io::Write};
 
-use super::forms::design;
+use super::design;
 
 /// What is still undecided where a walk is given up.
 const REMAINDER: f64 = 1e-12;

@@ -41,6 +41,16 @@ impl Approximation {
         self.reject
     }
 
+    /// The same with this many more observations.
+    pub(super) fn later(self, samples: f64) -> Self {
+        Self { mean_samples: (self.mean_samples + samples).min(f64::MAX), ..self }
+    }
+
+    /// The same with the roles of the hypotheses exchanged.
+    pub(super) fn mirrored(self) -> Self {
+        Self { accept: self.reject, reject: self.accept, ..self }
+    }
+
     /// Mean number of observations.
     #[must_use]
     pub const fn mean_samples(&self) -> f64 {
@@ -130,32 +140,37 @@ impl Increment {
         if drift == 0.0 {
             return 0.0;
         }
-        let (mut low, mut high) = if drift < 0.0 {
+        let (low, high) = if drift < 0.0 {
             (0.0, (-ln_of(self.hit, self.miss) / self.up).min(f64::MAX))
         } else {
             ((ln_of(self.miss, self.hit) / self.down).max(f64::MIN), 0.0)
         };
-        let mut h = (-drift / self.curvature(0.0)).max(low).min(high);
-        // Secant steps on an increasing function, with bisection wherever they leave the bracket, and now and then.
-        let (mut previous, mut before) = (f64::NAN, f64::NAN);
-        for turn in 1..200 {
-            let value = self.balance(h);
-            if value > 0.0 {
-                high = h;
-            } else if value < 0.0 {
-                low = h;
-            } else {
-                break;
-            }
-            let secant = h - value * (h - previous) / (value - before);
-            (previous, before) = (h, value);
-            h = if secant > low && secant < high && turn % 4 != 0 { secant } else { low / 2.0 + high / 2.0 };
-            if h <= low || h >= high {
-                break;
-            }
-        }
-        h
+        increasing_root(|h| self.balance(h), low, high, -drift / self.curvature(0.0))
     }
+}
+
+/// The root of an increasing function between two ends, found from `start`.
+pub(super) fn increasing_root(value_at: impl Fn(f64) -> f64, mut low: f64, mut high: f64, start: f64) -> f64 {
+    let mut h = start.max(low).min(high);
+    // Secant steps, with bisection wherever they leave the bracket, and now and then.
+    let (mut previous, mut before) = (f64::NAN, f64::NAN);
+    for turn in 1..200 {
+        let value = value_at(h);
+        if value > 0.0 {
+            high = h;
+        } else if value < 0.0 {
+            low = h;
+        } else {
+            break;
+        }
+        let secant = h - value * (h - previous) / (value - before);
+        (previous, before) = (h, value);
+        h = if secant > low && secant < high && turn % 4 != 0 { secant } else { low / 2.0 + high / 2.0 };
+        if h <= low || h >= high {
+            break;
+        }
+    }
+    h
 }
 
 /// `ln p` where `q = 1 − p`, from whichever is known better.
@@ -182,15 +197,21 @@ fn approximation(test: &Sprt<Bernoulli>, p: f64, overshoot: f64) -> Result<Appro
         return Ok(Approximation { accept: 0.0, reject: 1.0, mean_samples: (a / z.up).min(f64::MAX) });
     }
     let h = z.root();
+    Ok(approximate(a, b, h, z.drift(), z.curvature(h)))
+}
+
+/// What Wald's identities give for a walk that ends exactly at `a` or at `−b`, with this drift and the other root h of
+/// `ln E[exp(hZ)] = 0`; the drift is `−h·curvature`.
+pub(super) fn approximate(a: f64, b: f64, h: f64, drift: f64, curvature: f64) -> Approximation {
     let (accept, reject) = exits(a, b, h);
     let mean_samples = if (h * a).abs().max((h * b).abs()) < 1.0 {
         let d = a * first_quotient(h * a) + b * first_quotient(-h * b);
         // The products are ordered so that none overflows where the result does not.
-        a * (a * second_quotient(h * a) + b * second_quotient(-h * b)) / d * (b / z.curvature(h))
+        a * (a * second_quotient(h * a) + b * second_quotient(-h * b)) / d * (b / curvature)
     } else {
-        (reject * a - accept * b) / z.drift()
+        (reject * a - accept * b) / drift
     };
-    Ok(Approximation { accept, reject, mean_samples: mean_samples.min(f64::MAX) })
+    Approximation { accept, reject, mean_samples: mean_samples.min(f64::MAX) }
 }
 
 /// The probabilities of leaving `(−b, a)` below and above; both sums of positive terms, neither overflows.
@@ -212,7 +233,7 @@ fn first_quotient(x: f64) -> f64 {
 }
 
 /// `(exp(x) − 1 − x)/x²`, by its series for small `x`.
-fn second_quotient(x: f64) -> f64 {
+pub(super) fn second_quotient(x: f64) -> f64 {
     if x.abs() < 0.5 {
         // Σ xᵏ/(k + 2)!; the first term left out is below 2⁻⁵³ of the sum.
         (3..=15).rev().fold(1.0, |sum, k| 1.0 + x / f64::from(k) * sum) / 2.0

@@ -115,7 +115,7 @@ impl Family for Exponential {
 
     fn admits(&self, _: u64, time: &Sum) -> bool {
         // NaN is what an observation that is no time leaves.
-        !(time.value() < 0.0)
+        time.value() >= 0.0 || time.value().is_nan()
     }
 
     fn parameters(&self) -> [f64; 4] {

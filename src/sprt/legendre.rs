@@ -5,7 +5,8 @@ use alloc::vec::Vec;
 /// The nodes of the rule of `count` nodes on (−1, 1), in increasing order, with their weights.
 ///
 /// # Accuracy
-/// A few units in the last place of 1 in the nodes, 1e-14 relative in the weights seen up to a thousand nodes.
+/// The nodes are within 8·2⁻⁵³, the weights within a relative (16 + 3·count)·2⁻⁵³, searched; worst seen 6·2⁻⁵³, and 8.5e-14
+/// for a weight of 400 nodes.
 pub(super) fn rule(count: usize) -> Vec<(f64, f64)> {
     let mut rule = alloc::vec![(0.0, 2.0); count];
     let n = count as f64;
@@ -52,6 +53,30 @@ pub(super) fn rule(count: usize) -> Vec<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn nodes_and_weights_have_their_digits() {
+        // (count, place from the end at 1, 1 − node, weight), from 40 digits.
+        for (count, place, distance, weight) in [
+            (12, 0, 0.018_439_365_753_280_75, 0.047_175_336_386_511_83),
+            (12, 3, 0.412_682_045_713_382_55, 0.203_167_426_723_065_92),
+            (31, 0, 0.002_912_518_180_522_925_94, 0.007_470_831_579_248_776),
+            (31, 1, 0.015_314_090_334_847_516, 0.017_318_620_790_310_582),
+            (31, 7, 0.284_223_215_413_146_7, 0.069_628_583_235_410_37),
+            (31, 14, 0.900_444_687_847_658_5, 0.099_225_011_226_672_31),
+            (120, 0, 0.000_199_134_341_041_079_43, 0.000_511_026_063_694_612_1),
+            (120, 30, 0.304_514_565_935_377_4, 0.018_732_970_649_636_977),
+            (400, 1, 0.000_094_983_530_668_720_43, 0.000_107_690_381_021_836_46),
+            (400, 199, 0.996_077_924_905_161_9, 0.007_844_109_968_033_427),
+        ] {
+            let rule = rule(count);
+            let (x, w) = rule[count - 1 - place];
+            let error = (w / weight - 1.0).abs();
+            assert!(error <= (16 + 3 * count) as f64 * f64::EPSILON / 2.0, "{count} {place}: {error:e}");
+            let moved = ((1.0 - x) - distance).abs();
+            assert!(moved <= 8.0 * f64::EPSILON / 2.0, "{count} {place}: {moved:e}");
+        }
+    }
 
     #[test]
     fn polynomials_of_twice_the_degree_are_exact() {

@@ -52,6 +52,7 @@ mod counts;
 mod exponential;
 mod exponential_law;
 mod family;
+mod family_approximations;
 mod fixed_sample;
 mod forward;
 mod inference;

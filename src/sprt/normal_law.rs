@@ -25,10 +25,10 @@
 //! by another ε, and the sum for the undecided probability errs by a third one. Jumps beyond [`REACH`] miss less than
 //! `width·φ(REACH)`, twice.
 //!
-//! To this come roundings, in units of 2⁻⁵³: 2N of the sums; 1.2N since the nodes, and 0.6N since the ends, lie within a
-//! few roundings of where they should, for a density of deviation σ moved by δ moves a mass of 0.8·δ/σ at most, and
-//! H/σ < N/4; 128 for the factors. This assumes that `exp` is within 2 units in the last place, and nodes, weights and
-//! [`normal_tail`] within 16, which unit tests hold against more digits.
+//! To this come roundings, in units of 2⁻⁵³: 2N of the sums; 3N of the weights; 3N since the nodes lie within 11H, and the ends within 3H, of
+//! where they should, for a density of deviation σ moved by δ moves a mass of 0.8·δ/σ at most, and H/σ < N/4; 128 for
+//! the factors. This assumes that `exp` is within 2 units in the last place, that the nodes of the rule on (−1, 1) are
+//! within 8·2⁻⁵³, its weights within a relative (16 + 3N)·2⁻⁵³, and [`normal_tail`] within 16·2⁻⁵³: unit tests hold these against more digits.
 //!
 //! What each look puts in the wrong place adds up: see [`Misplaced`].
 
@@ -66,7 +66,7 @@ impl Sprt<Normal> {
     ///
     /// # Accuracy
     /// [`Characteristic::error_bound`] is proven, if the functions that it is made from are as accurate as their tests
-    /// find them: it adds the roundings and a bound of the error of the quadrature over the looks, an absolute 3e-14 or
+    /// find them: it adds the roundings and a bound of the error of the quadrature over the looks, an absolute 5e-14 or
     /// so for each look. Worst seen against 25 digits: relative 1e-14, and 4e-14 for a probability of 1e-112.
     ///
     /// # Examples
@@ -203,7 +203,7 @@ impl Density {
         let missed = 2.0 * 1.02e-20 * width / root;
         // The drift is right to three roundings of its two parts; one so large that nothing stays moves nothing.
         let moved = (root * self.drift.abs()).min(width / root + 40.0) + root * self.unit;
-        3.0 * self.quadrature + missed + (4.0 * count + 128.0 + 2.0 * moved) * UNIT
+        3.0 * self.quadrature + missed + (8.0 * count + 128.0 + 2.0 * moved) * UNIT
     }
 
     /// The worst relative error of the rule on `exp(−((z − m)/scale)²)`.

@@ -1,15 +1,15 @@
 //! Cost of one observation, in the forms a run takes it, of the exact characteristic and of the approximations.
 //!
 //! `sprt/push` and its peers are to be read as ratios to `sprt/baseline`: a sum of logarithms and two comparisons,
-//! which is what a test costs when ties do not matter. `cargo run --release --example sprt_report` prints the ratios.
+//! which is what a test costs when ties do not matter. The table of these ratios in `docs/sprt.md`, from measurements in
+//! turns, comes first: `cargo bench --bench sprt`.
 
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group};
 use std::hint::black_box;
 
-mod sprt_forms;
-use sprt_forms::{
-    OUTCOMES, baseline, brief, design, long, outcomes, packed, peer, peer_pushed, pushed, scheduled, words,
-};
+mod forms;
+mod ratios;
+use forms::{OUTCOMES, baseline, brief, design, long, outcomes, packed, peer, peer_pushed, pushed, scheduled, words};
 
 fn observations(c: &mut Criterion) {
     let outcomes = outcomes();
@@ -65,4 +65,12 @@ fn characteristic(c: &mut Criterion) {
 }
 
 criterion_group!(benches, observations, characteristic);
-criterion_main!(benches);
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    // Without this argument Criterion only tries everything once, and so does the table.
+    let rounds = if std::env::args().any(|argument| argument == "--bench") { 31 } else { 1 };
+    ratios::print(&mut std::io::stdout(), rounds)?;
+    benches();
+    Criterion::default().configure_from_args().final_summary();
+    Ok(())
+}

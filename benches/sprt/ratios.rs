@@ -2,6 +2,8 @@
 
 use std::{error::Error, hint::black_box, io::Write, time::Instant};
 
+use steradian::sprt::{Bernoulli, Sprt};
+
 use super::forms::{
     OUTCOMES, baseline, brief, design, long, outcomes, packed, peer, peer_pushed, pushed, scheduled, words,
 };
@@ -53,7 +55,9 @@ fn summary(values: impl Iterator<Item = f64>) -> (f64, f64) {
 pub fn print(out: &mut impl Write, count: u16) -> Result<(), Box<dyn Error>> {
     observations(out, count)?;
     writeln!(out)?;
-    characteristics(out, count)
+    characteristics(out, count)?;
+    writeln!(out)?;
+    calibrations(out, count)
 }
 
 fn observations(out: &mut impl Write, count: u16) -> Result<(), Box<dyn Error>> {
@@ -105,6 +109,20 @@ fn observations(out: &mut impl Write, count: u16) -> Result<(), Box<dyn Error>> 
             write!(out, " {median:.2} ({ratio:.2}), {least:.2} |")?;
         }
         writeln!(out)?;
+    }
+    Ok(())
+}
+
+fn calibrations(out: &mut impl Write, count: u16) -> Result<(), Box<dyn Error>> {
+    writeln!(out, "| ms for p0, p1, α, β (least) | calibration |\n|---|---|")?;
+    for (p0, p1, alpha, beta) in [(0.1, 0.3, 0.05, 0.1), (0.7, 0.9, 0.05, 0.1)] {
+        let family = Bernoulli::new(p0, p1)?;
+        let test = *Sprt::calibrated(family, alpha, beta)?.test();
+        assert!(test.characteristic(p0)?.reject() <= alpha && test.characteristic(p1)?.accept() <= beta);
+        let call = Box::new(move || _ = black_box(Sprt::calibrated(black_box(family), alpha, beta)));
+        let job = Job { name: "", column: 0, repeat: 1, units: 1_000_000, call };
+        let (least, median) = summary(rounds(&[job], count).swap_remove(0).into_iter());
+        writeln!(out, "| {p0}, {p1}, {alpha}, {beta} | {median:.2} ({least:.2}) |")?;
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! One stream of outcomes through every form of a test, shared by the bench and the report.
+//! One stream of outcomes through every form of a test, timed by Criterion and by the table of ratios.
 //!
 //! The stream is longer than what a branch predictor learns by heart, which is some tens of thousands of outcomes. Each
 //! loop restarts the test as it stops, and answers how often it rejected, so that the forms can be checked against each
