@@ -1,4 +1,4 @@
-//! Exact inference from a run that has stopped: p-value, confidence interval, estimates; and the e-value at any time.
+//! Exact inference from a run that has stopped: p-value, confidence interval, estimates.
 //!
 //! # Model
 //! The outcomes of a test are ordered by their evidence for H1: of two rejections the earlier one is larger, of two
@@ -13,11 +13,10 @@
 //! Inference that is valid under a stopping rule other than that of the test: only [`Run::e_value`] is.
 //!
 //! # Source
-//! Armitage (1957), Biometrika 44, for the order; Siegmund (1978), Biometrika 65, for the interval; Ville (1939) and
-//! Shafer and Vovk (2019) for the e-value.
+//! Armitage (1957), Biometrika 44, for the order; Siegmund (1978), Biometrika 65, for the interval.
 
 use super::tails::{End, Tails, TailsError};
-use super::{Bernoulli, CHARACTERISTIC_WORK, Family, Run, Step};
+use super::{Bernoulli, CHARACTERISTIC_WORK, ConfidenceInterval, Run, Step};
 use crate::float;
 
 /// No p-value is reported below this: the cells of the recursion end there.
@@ -34,35 +33,6 @@ const SURE: f64 = 1e-6;
 
 /// Steps in all: bisection of [`LOG_ODDS`] down to the last bit takes 60.
 const STEPS: u32 = NEWTON + 64;
-
-impl<F: Family> Run<'_, F> {
-    /// The likelihood ratio so far, as evidence against H0: its expectation under H0 is 1.
-    ///
-    /// Valid at any time and under any stopping rule, whether or not the run has stopped: under H0 the probability
-    /// that it ever reaches `x` is at most `1/x` (Ville).
-    ///
-    /// # Shapes
-    /// Never NaN: [`f64::MAX`] where the ratio overflows, 0 for a family whose logarithm is NaN.
-    ///
-    /// # Accuracy
-    /// Relative error of a few roundings times the sum of the magnitudes of the increments of the logarithm.
-    ///
-    /// # Examples
-    /// ```
-    /// use steradian::sprt::{Bernoulli, Bounds, Sprt};
-    ///
-    /// let test = Sprt::new(Bernoulli::new(0.25, 0.5)?, Bounds::from_risks(0.05, 0.1)?);
-    /// let mut run = test.start();
-    /// let _ = (run.push(true), run.push(true), run.push(false));
-    /// assert!((run.e_value() - 2.0 * 2.0 * (0.5 / 0.75)).abs() < 1e-14); // still undecided
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    #[must_use]
-    pub fn e_value(&self) -> f64 {
-        let ratio = float::exp(self.log_likelihood_ratio());
-        if ratio.is_nan() { 0.0 } else { ratio.min(f64::MAX) }
-    }
-}
 
 impl<'t> Run<'t, Bernoulli> {
     /// Exact inference from a run that has stopped, decided or exhausted.
@@ -197,7 +167,7 @@ impl<'t> Inference<'t> {
         }
         // The log-odds of (1 − level)/2; those of the complement are the opposite.
         let aim = float::ln((1.0 - level) / (1.0 + level));
-        Ok(ConfidenceInterval { lower: self.root(Split::AtLeast, aim)?, upper: self.root(Split::Above, -aim)? })
+        Ok(ConfidenceInterval::new(self.root(Split::AtLeast, aim)?, self.root(Split::Above, -aim)?))
     }
 
     /// Median-unbiased estimate of the probability of success: larger and smaller outcomes are equally probable
@@ -305,35 +275,6 @@ fn probability(x: f64) -> f64 {
         odds / (1.0 + odds)
     } else {
         1.0 / (1.0 + float::exp(-x))
-    }
-}
-
-/// Two limits for a probability of success; both belong to the interval.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[must_use]
-pub struct ConfidenceInterval {
-    lower: f64,
-    upper: f64,
-}
-
-impl ConfidenceInterval {
-    /// The lower limit, at least 0.
-    #[must_use]
-    pub const fn lower(&self) -> f64 {
-        self.lower
-    }
-
-    /// The upper limit, at most 1.
-    #[must_use]
-    pub const fn upper(&self) -> f64 {
-        self.upper
-    }
-
-    /// Whether `p` lies in the interval.
-    #[must_use]
-    pub fn contains(&self, p: f64) -> bool {
-        self.lower <= p && p <= self.upper
     }
 }
 
