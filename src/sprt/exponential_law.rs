@@ -390,3 +390,24 @@ fn coefficients(size: f64, most: f64) -> f64 {
 fn dot(values: &[f64], weights: &[f64]) -> f64 {
     values.iter().zip(weights).map(|(value, weight)| value * weight).sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_observation_adds_to_what_is_misplaced() -> Result<(), &'static str> {
+        let mut pieces = Pieces::new(2.2, 3.1, 1.3, 1);
+        let mut before = 0.0;
+        for samples in 1..=40 {
+            let _ = (&mut pieces).look(samples, 1, 1 << 24).ok_or("work")?;
+            // The first look is a closed form, and nothing is left out of a constant.
+            let Misplaced { mass, samples: weighted } = pieces.misplaced;
+            assert!(samples == 1 || mass > before && weighted <= mass * samples as f64, "{samples} {mass:e}");
+            before = mass;
+        }
+        // Roundings of 40 observations, and no more.
+        assert!(before > 1e-15 && before < 1e-11, "{before:e}");
+        Ok(())
+    }
+}

@@ -358,6 +358,15 @@ mod tests {
         let mut run = design.start();
         let _ = run.push_counts(4, 9)?;
         assert_eq!(run.inference(), Err(InferenceError::Schedule { samples: 9 }));
+        // It is not forgotten when the run goes on and stops at a look, nor if the look is passed by one outcome.
+        let mut run = design.start();
+        let _ = run.push_counts(4, 14)?;
+        while run.push(true) == Step::Continue {}
+        assert!(matches!(run.inference(), Err(InferenceError::Schedule { .. })));
+        let design = test()?.looks(Looks::from(10).every(2));
+        let mut run = design.start();
+        let _ = run.push_counts(11, 11)?;
+        assert_eq!(run.inference(), Err(InferenceError::Schedule { samples: 11 }));
         // A batch that stops short of the look, or ends on it, postpones nothing.
         let design = test()?.looks(Looks::from(10).every(2));
         let mut run = design.start();
