@@ -17,27 +17,33 @@
 //! than 0.501 ulp after the final rounding). A correctly rounded arctangent of the heads followed by a correction would
 //! round twice: 1 ulp.
 
-use core::f64::consts::{FRAC_PI_2, PI};
+use core::f64::consts::PI;
 
-use super::double::Double;
+use super::double::{Double, Real};
 
 /// π − `PI`.
 const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;
 
+/// Added to a number below 2⁵¹ and taken off again, it leaves the nearest integer, ties to even: 3·2⁵¹.
+const ROUND: f64 = 6_755_399_441_055_744.0;
+
 /// Argument of re + i im in (−π, π], with a relative error below 2⁻⁶⁴; 0 for 0 + 0i.
-pub(super) fn argument(re: Double, im: Double) -> Double {
+#[inline(always)]
+pub(super) fn argument<T: Real>(re: Double<T>, im: Double<T>) -> Double {
     reflected(re, im, |d| {
         let s = d.hi * d.hi;
-        let series = -1.0 / 3.0 + s * (1.0 / 5.0 + s * (-1.0 / 7.0 + s * (1.0 / 9.0)));
+        let c = T::constant;
+        let series = c(-1.0 / 3.0) + s * (c(1.0 / 5.0) + s * (c(-1.0 / 7.0) + s * c(1.0 / 9.0)));
         Double { hi: d.hi, lo: d.lo + s * d.hi * series }
     })
+    .cast()
 }
 
 /// `argument` with a relative error of a few u²: the polynomial's first terms are in double length too.
 #[cold]
 pub(super) fn long_argument(re: Double, im: Double) -> Double {
     let inverse = |n: f64| Double::from(1.0) / Double::from(n);
-    reflected(re, im, |d| {
+    reflected(re, im, |d: Double| {
         let s = d * d;
         let rest = s.hi * (1.0 / 9.0 + s.hi * (-1.0 / 11.0 + s.hi * (1.0 / 13.0)));
         let series = -inverse(3.0) + s * (inverse(5.0) + s * (Double::from(rest) - inverse(7.0)));
@@ -47,34 +53,37 @@ pub(super) fn long_argument(re: Double, im: Double) -> Double {
 
 /// The octants put together; `arctangent` serves |d| <= 1/127.
 #[inline(always)]
-fn reflected(re: Double, im: Double, arctangent: impl Fn(Double) -> Double) -> Double {
-    if im.hi == 0.0 {
-        return if re.hi < 0.0 { Double { hi: PI, lo: PI_LOW } } else { Double::default() };
+fn reflected<T: Real>(re: Double<T>, im: Double<T>, arctangent: impl Fn(Double<T>) -> Double<T>) -> Double<T> {
+    let multiple_of_pi = |n: f64| Double { hi: T::constant(n * PI), lo: T::constant(n * PI_LOW) };
+    if im.hi.get() == 0.0 {
+        return multiple_of_pi(if re.hi.get() < 0.0 { 1.0 } else { 0.0 });
     }
-    let magnitude = |x: Double| if x.hi < 0.0 { -x } else { x };
+    let magnitude = |x: Double<T>| if x.hi.get() < 0.0 { -x } else { x };
     let (x, y) = (magnitude(re), magnitude(im));
-    let mut angle = if y.hi <= x.hi {
-        first_octant(x, y, arctangent)
-    } else {
-        Double { hi: FRAC_PI_2, lo: 0.5 * PI_LOW } - first_octant(y, x, arctangent)
-    };
-    if re.hi < 0.0 {
-        angle = Double { hi: PI, lo: PI_LOW } - angle;
+    let steep = y.hi.get() > x.hi.get();
+    let (x, y) = if steep { (y, x) } else { (x, y) };
+    let mut angle = first_octant(x, y, arctangent);
+    if steep {
+        angle = multiple_of_pi(0.5) - angle;
     }
-    if im.hi < 0.0 { -angle } else { angle }
+    if re.hi.get() < 0.0 {
+        angle = multiple_of_pi(1.0) - angle;
+    }
+    if im.hi.get() < 0.0 { -angle } else { angle }
 }
 
 /// atan(y/x) for 0 <= y <= x, x > 0.
-#[inline]
-fn first_octant(x: Double, y: Double, arctangent: impl Fn(Double) -> Double) -> Double {
-    let k = (64.0 * (y.hi / x.hi)).round_ties_even();
+#[inline(always)]
+fn first_octant<T: Real>(x: Double<T>, y: Double<T>, arctangent: impl Fn(Double<T>) -> Double<T>) -> Double<T> {
+    let k = (64.0 * (y.hi.get() / x.hi.get()) + ROUND) - ROUND;
     // k has at most 7 bits and the scaling is exact; a small y keeps its relative accuracy because then k = 0.
-    let sixty_four = |z: Double| Double { hi: 64.0 * z.hi, lo: 64.0 * z.lo };
-    let (p, q) = (sixty_four(y) - x * k, sixty_four(x) + y * k);
+    let scale = T::constant(64.0);
+    let sixty_four = |z: Double<T>| Double { hi: scale * z.hi, lo: scale * z.lo };
+    let (p, q) = (sixty_four(y) - x * T::constant(k), sixty_four(x) + y * T::constant(k));
     let atan = arctangent(p / q);
     let (hi, lo) = ARCTANGENTS[k as usize];
-    let sum = Double::sum(hi, atan.hi);
-    Double::sum(sum.hi, sum.lo + (lo + atan.lo))
+    let sum = T::sum(T::constant(hi), atan.hi);
+    T::sum(sum.hi, sum.lo + (T::constant(lo) + atan.lo))
 }
 
 /// atan(k/64) for k = 0 … 64, each as a double and what is left of it.

@@ -55,12 +55,15 @@
 
 mod argument;
 mod check;
+mod dispatch;
 mod double;
 mod error;
 mod exact;
 mod fan;
 pub mod fast;
 pub mod formula;
+mod fused;
+mod kernel;
 mod moment;
 
 use glam::DVec3;
@@ -153,7 +156,7 @@ pub fn triangle(a: DVec3, b: DVec3, c: DVec3) -> Result<f64, SolidAngleError> {
 /// # Ok::<(), solid_angle::SolidAngleError>(())
 /// ```
 pub fn polygon(vertices: &[DVec3]) -> Result<f64, SolidAngleError> {
-    measured(vertices, |pruned| fan::half_angle(pruned).unsigned())
+    measured(vertices, |pruned| fan::fan(pruned).unsigned())
 }
 
 /// Signed solid angle of the region on the left of the closed loop `vertices`, in steradians.
@@ -184,7 +187,7 @@ pub fn polygon(vertices: &[DVec3]) -> Result<f64, SolidAngleError> {
 /// # Ok::<(), solid_angle::SolidAngleError>(())
 /// ```
 pub fn signed_polygon(vertices: &[DVec3]) -> Result<f64, SolidAngleError> {
-    measured(vertices, |pruned| fan::half_angle(pruned).signed())
+    measured(vertices, |pruned| fan::fan(pruned).signed())
 }
 
 /// Vector moment ∫ ω dω of the region on the left of the closed loop `vertices`.
