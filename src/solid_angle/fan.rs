@@ -72,6 +72,11 @@ pub(super) struct Fan {
 }
 
 impl Fan {
+    /// The signed solid angle before it is rounded.
+    pub fn angle(&self) -> Double {
+        Double { hi: 2.0 * self.half.hi, lo: 2.0 * self.half.lo }
+    }
+
     /// The signed solid angle, in (−2π, 2π].
     pub fn signed(&self) -> f64 {
         2.0 * self.half.value()
@@ -131,6 +136,8 @@ impl Kernel for Loop<'_> {
         let Some(Complex { re, mut im }) = product else { return Fan::default() };
         let (x, y) = (re.hi.get().abs(), im.hi.get().abs());
         if y <= NOISE * sum.swept * (x + y) {
+            // From just above −π to π.
+            sum.turns -= i64::from(re.hi.get() < 0.0 && im.hi.get() < 0.0);
             im = Double::constant(0.0);
         }
         sum.half = argument(re, im);

@@ -54,6 +54,7 @@
 //! ```
 
 mod argument;
+mod bounded;
 mod check;
 mod dispatch;
 mod double;
@@ -63,13 +64,21 @@ mod fan;
 pub mod fast;
 pub mod formula;
 mod fused;
+mod geographic;
 mod kernel;
 mod moment;
+mod product;
+mod seen;
+mod winding;
 
 use glam::DVec3;
 
+pub use bounded::{Bounded, polygon_bounded, signed_polygon_bounded};
 pub use check::UNIT_TOLERANCE;
 pub use error::SolidAngleError;
+pub use geographic::{GEOGRAPHIC_FLOOR, geographic_polygon};
+pub use seen::seen_from;
+pub use winding::winding;
 
 /// Error of a solid angle in units of the last place of the exact value, searched: 0.51.
 ///
@@ -233,5 +242,5 @@ pub fn vector_moment(vertices: &[DVec3]) -> Result<DVec3, SolidAngleError> {
 /// `measure` of the loop, checked and pruned.
 fn measured<T>(vertices: &[DVec3], measure: impl Fn(&[DVec3]) -> T) -> Result<T, SolidAngleError> {
     check::check(vertices)?;
-    Ok(if check::has_whiskers(vertices) { measure(&check::prune(vertices)) } else { measure(vertices) })
+    Ok(check::pruned(vertices, check::same, measure))
 }
