@@ -125,6 +125,13 @@ impl<T: Number> Double<T> {
 }
 
 impl<T: Real> Double<T> {
+    /// The number times a power of two or its opposite, exactly.
+    #[inline(always)]
+    pub fn times(self, power: f64) -> Self {
+        let power = T::constant(power);
+        Self { hi: self.hi * power, lo: self.lo * power }
+    }
+
     /// The same number for another arithmetic.
     #[inline(always)]
     pub fn cast<U: Real>(self) -> Double<U> {
@@ -144,10 +151,16 @@ impl Double {
     }
 }
 
+/// The three values of `f`. The standard library's `map` is a call where the caller is compiled for a feature of its own.
+#[inline(always)]
+pub fn three<U>(f: impl Fn(usize) -> U) -> [U; 3] {
+    [f(0), f(1), f(2)]
+}
+
 /// a·b, within a few u² of Σ |aᵢ bᵢ|; `hi` is near the sum, not always nearest to it.
 #[inline(always)]
 pub fn dot<T: Number>(a: [T; 3], b: [T; 3]) -> Double<T> {
-    let [x, y, z] = [0, 1, 2].map(|i| T::product(a[i], b[i]));
+    let [x, y, z] = three(|i| T::product(a[i], b[i]));
     let s = T::sum(x.hi, y.hi);
     let t = T::sum(s.hi, z.hi);
     Double { hi: t.hi, lo: ((x.lo + y.lo) + z.lo) + (s.lo + t.lo) }

@@ -41,7 +41,7 @@ use glam::DVec3;
 
 use super::argument::argument;
 use super::dispatch::{self, Kernel};
-use super::double::{Double, Real, dot};
+use super::double::{Double, Real, dot, three};
 use super::exact;
 use super::kernel::{self, Complex, denominator, numerator, times};
 
@@ -112,11 +112,11 @@ impl Kernel for Loop<'_> {
         let mut rest = rest.iter();
         while let Some(c) = rest.next() {
             let c = c.to_array();
-            let (factor, spoke) = if exact::antipodal(apex.v.map(T::get), c) {
+            let (factor, spoke) = if exact::antipodal(values(apex.v), c) {
                 // The next vertex is neither this one nor the apex: the loop was checked and pruned.
                 let Some(next) = rest.next() else { break };
                 let next = next.to_array();
-                (lune(&apex, b.v.map(T::get), next), Spoke::new(&apex, next))
+                (lune(&apex, values(b.v), next), Spoke::new(&apex, next))
             } else {
                 let c = Spoke::new(&apex, c);
                 (triangle(&apex, &b, &c), c)
@@ -164,6 +164,12 @@ struct Spoke<T> {
     cosine: Double<T>,
 }
 
+/// The plain numbers of a vector.
+#[inline(always)]
+fn values<T: Real>(v: [T; 3]) -> [f64; 3] {
+    three(|i| v[i].get())
+}
+
 /// |v| − 1 of a near-unit vector.
 #[inline(always)]
 pub(super) fn excess(v: [f64; 3]) -> f64 {
@@ -173,7 +179,7 @@ pub(super) fn excess(v: [f64; 3]) -> f64 {
 impl<T: Real> Apex<T> {
     #[inline(always)]
     fn new(v: [f64; 3]) -> Self {
-        let v = v.map(T::constant);
+        let v = three(|i| T::constant(v[i]));
         Self { v, excess: kernel::excess(v) }
     }
 }
@@ -181,7 +187,7 @@ impl<T: Real> Apex<T> {
 impl<T: Real> Spoke<T> {
     #[inline(always)]
     fn new(apex: &Apex<T>, v: [f64; 3]) -> Self {
-        let v = v.map(T::constant);
+        let v = three(|i| T::constant(v[i]));
         Self { v, excess: kernel::excess(v), offset: kernel::offset(apex.v, v), cosine: dot(apex.v, v) }
     }
 }
@@ -227,16 +233,16 @@ fn scaled<T: Real>(z: Complex<T>) -> Complex<T> {
 fn triangle<T: Real>(apex: &Apex<T>, b: &Spoke<T>, c: &Spoke<T>) -> Complex<T> {
     let mut im = numerator(apex.v, &b.offset, &c.offset);
     let length = |p: &[Double<T>; 3]| {
-        let [x, y, z] = [0, 1, 2].map(|i| p[i].hi.get().abs());
+        let [x, y, z] = three(|i| p[i].hi.get().abs());
         x.max(y).max(z)
     };
     if im.hi.get().abs() <= NUMERATOR_FLOOR * length(&b.offset) * length(&c.offset) {
-        im = exact::determinant(apex.v.map(T::get), b.v.map(T::get), c.v.map(T::get)).cast();
+        im = exact::determinant(values(apex.v), values(b.v), values(c.v)).cast();
     }
     let cosines = [b.cosine, dot(b.v, c.v), c.cosine];
     let re = denominator(cosines, [apex.excess, b.excess, c.excess]);
     if re.hi.get().abs() + im.hi.get().abs() < FACTOR_FLOOR {
-        let Complex { re, im } = near_antipodal(apex.v.map(T::get), b.v.map(T::get), c.v.map(T::get), im.cast());
+        let Complex { re, im } = near_antipodal(values(apex.v), values(b.v), values(c.v), im.cast());
         return Complex { re: re.cast(), im: im.cast() };
     }
     Complex { re, im }
@@ -275,7 +281,7 @@ fn near_antipodal(a: [f64; 3], b: [f64; 3], c: [f64; 3], im: Double) -> Complex<
 #[cold]
 #[inline(never)]
 fn lune<T: Real>(apex: &Apex<T>, p: [f64; 3], q: [f64; 3]) -> Complex<T> {
-    let v = apex.v.map(T::get);
+    let v = values(apex.v);
     let (s, t) = (exact::cross(v, p), exact::cross(v, q));
     let re = s[0] * t[0] + s[1] * t[1] + s[2] * t[2];
     let det = exact::determinant(v, p, q);

@@ -3,7 +3,7 @@
 //! Generic over the number, and dependent on nothing but double length: the proofs of docs/proofs are written by running
 //! these very functions on numbers that record what is done to them.
 
-use super::double::{Double, Number, dot};
+use super::double::{Double, Number, dot, three};
 
 /// A complex number in double length.
 #[derive(Clone, Copy)]
@@ -29,7 +29,7 @@ pub fn norm_error<T: Number>(v: [T; 3]) -> T {
 /// v − a, exactly.
 #[inline(always)]
 pub fn offset<T: Number>(a: [T; 3], v: [T; 3]) -> [Double<T>; 3] {
-    [0, 1, 2].map(|i| Double::difference(v[i], a[i]))
+    three(|i| Double::difference(v[i], a[i]))
 }
 
 /// apex·(p×q).
@@ -42,7 +42,7 @@ pub fn numerator<T: Number>(apex: [T; 3], p: &[Double<T>; 3], q: &[Double<T>; 3]
         (n.hi, ((u.lo - v.lo) + n.lo) + cross)
     };
     let n = [minor(1, 2), minor(2, 0), minor(0, 1)];
-    let main = dot(apex, n.map(|(hi, _)| hi));
+    let main = dot(apex, three(|i| n[i].0));
     let low = apex[0] * n[0].1 + apex[1] * n[1].1 + apex[2] * n[2].1;
     Double::sum(main.hi, main.lo + low)
 }
