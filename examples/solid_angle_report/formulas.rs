@@ -22,6 +22,8 @@ const fn triangle(name: &'static str, measure: fn(&[DVec3]) -> f64) -> Formula {
 pub const POLYGON: &str = "`polygon`";
 /// The naive one that ours is compared with.
 pub const NAIVE: &str = "Van Oosterom–Strackee";
+/// The same as it is found in other programs.
+pub const PLATFORM: &str = "Van Oosterom–Strackee, platform's arctangent";
 /// The peer's.
 pub const S2: &str = "s2geometry";
 
@@ -34,6 +36,7 @@ pub const FORMULAS: &[Formula] = &[
     any("interior angles, arcsine", formula::interior_angles_asin),
     any("turning angles", formula::turning),
     any(NAIVE, |v| fan(v, formula::van_oosterom_strackee)),
+    any(PLATFORM, |v| fan(v, platform)),
     any("Eriksson", |v| fan(v, formula::eriksson)),
     any("Eriksson, differences", |v| fan(v, formula::eriksson_from_differences)),
     triangle("l'Huilier", |v| formula::l_huilier(v[0], v[1], v[2])),
@@ -42,4 +45,9 @@ pub const FORMULAS: &[Formula] = &[
 
 fn fan(v: &[DVec3], triangle: fn(DVec3, DVec3, DVec3) -> f64) -> f64 {
     v[1..].windows(2).map(|edge| triangle(v[0], edge[0], edge[1])).sum()
+}
+
+/// For unit vectors, with the arctangent of the platform, which differs between machines.
+fn platform(a: DVec3, b: DVec3, c: DVec3) -> f64 {
+    2.0 * a.dot(b.cross(c)).atan2(1.0 + a.dot(b) + b.dot(c) + c.dot(a))
 }

@@ -4,13 +4,13 @@ use plotters::prelude::*;
 
 use super::measure::Set;
 
-const SIZE: (u32, u32) = (900, 640);
-const KEY: i32 = 215;
+const SIZE: (u32, u32) = (1000, 640);
+const KEY: i32 = 320;
 /// Errors are drawn up to here: no digit is right.
 const TOP: f64 = 1e17;
 const BOTTOM: f64 = 0.2;
 
-const COLOURS: [RGBColor; 13] = [
+const COLOURS: [RGBColor; 14] = [
     RGBColor(0, 0, 0),
     RGBColor(110, 110, 110),
     RGBColor(0, 114, 178),
@@ -20,6 +20,7 @@ const COLOURS: [RGBColor; 13] = [
     RGBColor(204, 121, 167),
     RGBColor(0, 158, 115),
     RGBColor(120, 190, 90),
+    RGBColor(0, 80, 60),
     RGBColor(86, 180, 233),
     RGBColor(150, 60, 160),
     RGBColor(140, 100, 60),
