@@ -2,6 +2,7 @@
 
 use plotters::prelude::*;
 
+use super::formulas::FORMULAS;
 use super::measure::Set;
 
 const SIZE: (u32, u32) = (1000, 640);
@@ -56,7 +57,8 @@ fn draw<'b>(text: &'b mut String, set: &Set) -> Result<(), Box<dyn std::error::E
         .x_label_formatter(&|x| format!("{x:.0}"))
         .draw()?;
     for (i, row) in set.rows.iter().enumerate() {
-        let colour = COLOURS[i % COLOURS.len()];
+        let place = FORMULAS.iter().position(|formula| formula.name == row.name).unwrap_or(FORMULAS.len());
+        let colour = COLOURS[place % COLOURS.len()];
         let error = |largest: f64| if largest.is_nan() { TOP } else { largest.clamp(BOTTOM, TOP) };
         let points = row.cells.iter().map(|cell| (cell.time, error(cell.largest)));
         chart.draw_series(points.map(|at| Circle::new(at, 4, colour.mix(0.8).filled())))?;
