@@ -164,6 +164,18 @@ fn a_loop_counts_as_often_as_it_winds() {
 }
 
 #[test]
+fn a_great_circle_winds_by_half_a_sphere_to_the_last_bit() {
+    let mut rng = seeds::rng(301);
+    for _ in 0..seeds::cases(3000) {
+        let n = rng.random_range(3..30);
+        let corner = |i: i32| TAU * (f64::from(i) + rng.random_range(0.0..0.4)) / f64::from(n);
+        let equator: Vec<_> = (0..n).map(corner).map(|angle| DVec3::new(angle.cos(), angle.sin(), 0.0)).collect();
+        let zero = direction(&mut rng);
+        assert_eq!(winding(&equator, zero), Ok(-TAU.copysign(zero.z)), "{zero} {equator:?}");
+    }
+}
+
+#[test]
 fn no_winding_number_is_asked_for_on_the_loop() {
     let equator = [DVec3::X, DVec3::Y, DVec3::new(-0.6, -0.8, 0.0)];
     for (zero, index) in [

@@ -203,7 +203,7 @@ fn first_sin_cos(angle: Double) -> (Double, Double) {
     let (delta, scale) = (missing.hi, -0.5 * square.hi);
     let turned = |along: f64, across: f64| {
         let turn = Double::product(across, delta);
-        let shift = Double::from(across * missing.lo + along * (scale + 1.5 * scale * scale - 0.5 * delta * delta));
+        let shift = Double::from(along * (scale + 1.5 * scale * scale - 0.5 * delta * delta));
         Double::from(along) + (turn + shift)
     };
     (turned(sin, cos), turned(cos, -sin))
