@@ -17,6 +17,8 @@
 //!
 //! 1. Solid angles are within [`ANGLE_BOUND`] of the exact value of the given doubles, from 1e-240 sr to 4π, needles and
 //!    edges that are nearly half turns included: tests/solid_angle_oracle.rs.
+//!    Ten thousand polygons of each of 32 classes, drawn afresh for every seed, against 384 binary places:
+//!    tests/solid_angle_exact.rs; the bounded, winding, seen and geographic forms: tests/solid_angle_forms.rs.
 //! 2. Moments are within [`MOMENT_BOUND`] of the exact vector, however small the region: tests/solid_angle_oracle.rs.
 //! 3. Neither the first vertex nor the axes matter, reversal changes the sign, parts add up: tests/solid_angle_laws.rs.
 //! 4. What encloses nothing, such as edges walked forth and back, is exactly 0: tests/solid_angle_laws.rs.
@@ -26,7 +28,7 @@
 //!
 //! # Not here
 //!
-//! - Vectors of other lengths: normalise them, or [`formula::van_oosterom_strackee`].
+//! - Vectors of other lengths: [`seen_from`] the origin takes their exact directions.
 //! - Speed without accuracy: [`fast`].
 //! - An edge between opposite points has no direction: it is refused. Put a vertex on it.
 //! - The empty loop as the whole sphere: it is refused.

@@ -12,8 +12,6 @@ pub const TABLE: &[(&str, &str, f64, &str)] = &[
     // Three points that are collinear up to the rounding of their coordinates: 2⁻¹⁰⁶ of the edges is left of the moment.
     ("vector_moment", "needle", 64.0, "searched: oracle"),
     ("vector_moment", "s2_regression", 64.0, "searched: oracle"),
-    // A moment of a quarter of the bulges that cancel in it: their rounding in `f64` counts four times.
-    ("vector_moment", "triangle random", 16.0, "searched: 384 places"),
     // Exactly collinear points, in units of 2⁻¹⁰⁶.
     ("vector_moment of nothing", "*", 4.0, "searched: oracle"),
     // The exact value is a rounding accident, 10⁻¹⁶ of the lobes that cancel in it.
