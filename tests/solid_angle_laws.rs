@@ -54,8 +54,10 @@ fn any_loop(rng: &mut Pcg64) -> Vec<DVec3> {
     }
 }
 
+type Image = fn(DVec3) -> DVec3;
+
 /// Permutations and reflections of the axes, with the sign of their determinants.
-const IMAGES: [(fn(DVec3) -> DVec3, f64); 5] = [
+const IMAGES: [(Image, f64); 5] = [
     (|v| DVec3::new(v.y, v.z, v.x), 1.0),
     (|v| DVec3::new(v.z, v.x, v.y), 1.0),
     (|v| DVec3::new(v.y, v.x, v.z), -1.0),
