@@ -29,7 +29,7 @@
 //!     module; `sprt`, `voronoi` and `ilv` are fuzzed.
 //! (2) The geometry uses correctly rounded transcendental functions only: the same input gives the same bits on every
 //!     machine, thread count and optimisation level (`tests/values.rs`, `tests/pipeline.rs`).
-//! (3) No `unsafe` code.
+//! (3) No `unsafe` code, but for one call that runs the solid angle on the processor's fused multiply-add.
 //!
 //! # Features
 //! All of them add; `sprt` is always there.

@@ -11,7 +11,9 @@ use proptest::prelude::*;
 use rand::RngExt;
 use rand_pcg::Pcg64;
 use steradian::glam::DVec3;
-use steradian::solid_angle::{SolidAngleError, UNIT_TOLERANCE, polygon, signed_polygon, triangle, vector_moment};
+use steradian::solid_angle::{
+    SolidAngleError, UNIT_TOLERANCE, polygon, seen_from, signed_polygon, triangle, vector_moment, winding,
+};
 
 /// A direction, uniform enough.
 fn direction(rng: &mut Pcg64) -> DVec3 {
@@ -51,6 +53,17 @@ fn any_loop(rng: &mut Pcg64) -> Vec<DVec3> {
         _ => star(rng, n),
     }
 }
+
+type Image = fn(DVec3) -> DVec3;
+
+/// Permutations and reflections of the axes, with the sign of their determinants.
+const IMAGES: [(Image, f64); 5] = [
+    (|v| DVec3::new(v.y, v.z, v.x), 1.0),
+    (|v| DVec3::new(v.z, v.x, v.y), 1.0),
+    (|v| DVec3::new(v.y, v.x, v.z), -1.0),
+    (|v| DVec3::new(-v.x, v.y, v.z), -1.0),
+    (|v| DVec3::new(v.x, -v.y, -v.z), 1.0),
+];
 
 /// One of the 26 directions to the corners, edges and faces of a cube.
 fn lattice(step: u8) -> DVec3 {
@@ -148,15 +161,67 @@ proptest! {
     fn renaming_the_axes_keeps_every_bit(stream: u64) {
         let vertices = any_loop(&mut rng(stream));
         let want = angle(&vertices);
-        for (images, sign) in [
-            (vertices.iter().map(|v| DVec3::new(v.y, v.z, v.x)).collect::<Vec<_>>(), 1.0),
-            (vertices.iter().map(|v| DVec3::new(v.z, v.x, v.y)).collect(), 1.0),
-            (vertices.iter().map(|v| DVec3::new(v.y, v.x, v.z)).collect(), -1.0),
-            (vertices.iter().map(|v| DVec3::new(-v.x, v.y, v.z)).collect(), -1.0),
-            (vertices.iter().map(|v| DVec3::new(v.x, -v.y, -v.z)).collect(), 1.0),
-        ] {
+        for (image, sign) in IMAGES {
+            let images: Vec<_> = vertices.iter().map(|&v| image(v)).collect();
             prop_assert_eq!(angle(&images).to_bits(), (sign * want).to_bits(), "{:?}", images);
         }
+    }
+
+    #[test]
+    fn every_form_keeps_its_bits_when_axes_are_renamed(stream: u64) {
+        let mut rng = rng(stream);
+        let (vertices, zero) = (any_loop(&mut rng), direction(&mut rng));
+        let eye = 0.1 * direction(&mut rng);
+        let want = (moment(&vertices), winding(&vertices, zero), seen_from(eye, &vertices));
+        for (image, sign) in IMAGES {
+            let images: Vec<_> = vertices.iter().map(|&v| image(v)).collect();
+            let got = (moment(&images), winding(&images, image(zero)), seen_from(image(eye), &images));
+            // A reflection turns the loop round, and the moment is where the image of the region is.
+            prop_assert_eq!((got.1, got.2), (want.1.map(|x| sign * x), want.2.map(|x| sign * x)), "{:?}", images);
+            // Sums of three components are taken in the order of the axes, so that the moment keeps its value, not its bits.
+            let scale = vertices.len() as f64 * f64::EPSILON * want.0.length().max(f64::EPSILON);
+            let error = (got.0 - sign * image(want.0)).length() / scale;
+            prop_assert!(error <= bound("vector_moment", "law: any"), "{:?}: {:?} against {:?}", images, got.0, want.0);
+        }
+    }
+
+    #[test]
+    fn winding_numbers_of_two_parts_add_up_without_a_turn_to_spare(stream: u64) {
+        let mut rng = rng(stream);
+        let (n, zero) = (rng.random_range(4..12), direction(&mut rng));
+        let vertices: Vec<_> = (0..n).map(|_| direction(&mut rng)).collect();
+        let cut = n / 2;
+        let (p, q) = (winding(&vertices[..=cut], zero), winding(&[&vertices[cut..], &vertices[..1]].concat(), zero));
+        let (p, q, whole) = (p.unwrap(), q.unwrap(), winding(&vertices, zero).unwrap());
+        let error = (p + q - whole).abs() / ulp(p.abs().max(q.abs()).max(whole.abs()));
+        prop_assert!(error <= bound("signed_polygon", "law: sum"), "{zero} {vertices:?}: {p} + {q} against {whole}");
+    }
+
+    #[test]
+    fn moving_the_zero_across_the_loop_moves_the_winding_number_by_whole_spheres(stream: u64) {
+        let mut rng = rng(stream);
+        let vertices = star(&mut rng, 7);
+        let (a, b) = (winding(&vertices, direction(&mut rng)).unwrap(), winding(&vertices, direction(&mut rng)).unwrap());
+        let turns = (a - b) / (2.0 * TAU);
+        prop_assert!((turns - turns.round()).abs() <= bound("winding", "law: turns") * f64::EPSILON, "{vertices:?}: {a}, {b}");
+        prop_assert!(turns.abs() <= 1.0 + f64::EPSILON, "{vertices:?}: {a}, {b}");
+    }
+
+    #[test]
+    fn a_hemisphere_about_any_direction_has_the_moment_pi(stream: u64) {
+        let mut rng = rng(stream);
+        let axis = direction(&mut rng);
+        let (x, y) = axis.any_orthonormal_pair();
+        let n = rng.random_range(4..20);
+        let circle: Vec<_> = (0..n)
+            .map(|i| {
+                let (sin, cos) = (TAU * (f64::from(i) + rng.random_range(0.0..0.4)) / f64::from(n)).sin_cos();
+                (cos * x + sin * y).normalize()
+            })
+            .collect();
+        // The vertices are rounded, and with them the great circle.
+        let error = (moment(&circle) - PI * axis).length() / (f64::EPSILON * PI);
+        prop_assert!(error <= bound("vector_moment", "law: any"), "{axis} {n}: {error}");
     }
 
     #[test]
@@ -304,4 +369,38 @@ fn values_keep_their_bits() {
 
 /// Outputs of `values_keep_their_bits`; a change of one belongs under "Values" in the changelog.
 const PINNED_ANGLE: u64 = 0x3fe1_d564_aead_4e4e;
-const PINNED_MOMENT: [u64; 3] = [0x3f94_d27a_b2c9_66d8, 0x3fa7_13b4_6e50_344d, 0x3fe0_ce1c_a6f5_3ea7];
+const PINNED_MOMENT: [u64; 3] = [0x3f94_d27a_b2c9_66de, 0x3fa7_13b4_6e50_345b, 0x3fe0_ce1c_a6f5_3ea7];
+
+/// The public functions of the module: those of its files that are public, and what it re-exports.
+fn public_functions() -> Vec<String> {
+    let directory = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/solid_angle");
+    let read = |file: &str| std::fs::read_to_string(directory.join(file)).expect("a source file");
+    let module = read("mod.rs");
+    let sources = [module.clone(), read("fast.rs"), read("formula.rs")].concat();
+    let defined = sources.lines().filter_map(|line| line.strip_prefix("pub fn ")?.split(['(', '<']).next());
+    let exported = module.lines().filter_map(|line| line.strip_prefix("pub use ")).flat_map(|line| {
+        let names = line.rsplit("::").next().unwrap_or_default();
+        names.split(['{', '}', ',', ';', ' ']).filter(|name| name.starts_with(char::is_lowercase))
+    });
+    defined.chain(exported).map(str::to_owned).collect()
+}
+
+#[test]
+fn every_public_function_is_compared_with_exact_values_or_with_one_that_is() {
+    let tests = [
+        include_str!("solid_angle_exact.rs"),
+        include_str!("solid_angle_forms.rs"),
+        include_str!("solid_angle_oracle.rs"),
+        include_str!("solid_angle_formulas.rs"),
+    ]
+    .concat();
+    let names = public_functions();
+    assert!(names.len() > 15 && names.iter().any(|name| name == "winding"), "{names:?}");
+    for name in names {
+        let used = tests.match_indices(&name).any(|(at, _)| {
+            let beside = |c: Option<char>| c.is_some_and(|c| c.is_alphanumeric() || c == '_');
+            !beside(tests[..at].chars().next_back()) && !beside(tests[at + name.len()..].chars().next())
+        });
+        assert!(used, "`{name}` is in none of the tests with exact values");
+    }
+}

@@ -17,64 +17,126 @@
 //! than 0.501 ulp after the final rounding). A correctly rounded arctangent of the heads followed by a correction would
 //! round twice: 1 ulp.
 
-use core::f64::consts::{FRAC_PI_2, PI};
+use core::f64::consts::PI;
 
-use super::double::Double;
+use super::double::{Double, Real};
 
 /// π − `PI`.
 const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;
 
+/// Added to a number below 2⁵¹ and taken off again, it leaves the nearest integer, ties to even: 3·2⁵¹.
+const ROUND: f64 = 6_755_399_441_055_744.0;
+
 /// Argument of re + i im in (−π, π], with a relative error below 2⁻⁶⁴; 0 for 0 + 0i.
-pub(super) fn argument(re: Double, im: Double) -> Double {
-    reflected(re, im, |d| {
+#[inline(always)]
+pub(super) fn argument<T: Real>(re: Double<T>, im: Double<T>) -> Double {
+    reflected(re, im, quotient, |d| {
         let s = d.hi * d.hi;
-        let series = -1.0 / 3.0 + s * (1.0 / 5.0 + s * (-1.0 / 7.0 + s * (1.0 / 9.0)));
-        Double { hi: d.hi, lo: d.lo + s * d.hi * series }
+        Double { hi: d.hi, lo: d.lo + s * d.hi * series(s) }
     })
+    .cast()
 }
 
-/// `argument` with a relative error of a few u²: the polynomial's first terms are in double length too.
+/// `argument` with a relative error of a few u²: the quotient is refined, and the polynomial's first terms are in double
+/// length too.
 #[cold]
 pub(super) fn long_argument(re: Double, im: Double) -> Double {
     let inverse = |n: f64| Double::from(1.0) / Double::from(n);
-    reflected(re, im, |d| {
-        let s = d * d;
-        let rest = s.hi * (1.0 / 9.0 + s.hi * (-1.0 / 11.0 + s.hi * (1.0 / 13.0)));
-        let series = -inverse(3.0) + s * (inverse(5.0) + s * (Double::from(rest) - inverse(7.0)));
-        d + d * s * series
-    })
+    reflected(
+        re,
+        im,
+        |p, q| p / q,
+        |d: Double| {
+            let s = d * d;
+            let rest = s.hi * (1.0 / 9.0 + s.hi * (-1.0 / 11.0 + s.hi * (1.0 / 13.0)));
+            let series = -inverse(3.0) + s * (inverse(5.0) + s * (Double::from(rest) - inverse(7.0)));
+            d + d * s * series
+        },
+    )
+}
+
+/// Argument of re + i im in (−π, π], to within 4u; 0 for 0 + 0i.
+#[inline(always)]
+pub(super) fn short_argument(re: f64, im: f64) -> f64 {
+    let (x, y) = (re.abs(), im.abs());
+    let (long, short) = if y > x { (y, x) } else { (x, y) };
+    if long == 0.0 {
+        return 0.0;
+    }
+    let k = (64.0 * (short / long) + ROUND) - ROUND;
+    let d = (64.0 * short - k * long) / (64.0 * long + k * short);
+    let s = d * d;
+    let angle = ARCTANGENTS[(k as usize).min(64)].0 + (d + s * d * series(s));
+    let angle = if y > x { 0.5 * PI - angle } else { angle };
+    let angle = if re < 0.0 { PI - angle } else { angle };
+    if im < 0.0 { -angle } else { angle }
+}
+
+/// (atan d − d)/d³ as a polynomial in s = d².
+#[inline(always)]
+fn series<T: Real>(s: T) -> T {
+    let c = T::constant;
+    c(-1.0 / 3.0) + s * (c(1.0 / 5.0) + s * (c(-1.0 / 7.0) + s * c(1.0 / 9.0)))
+}
+
+/// p/q, within a few u².
+#[inline(always)]
+fn quotient<T: Real>(p: Double<T>, q: Double<T>) -> Double<T> {
+    let inverse = T::constant(1.0) / q.hi;
+    let hi = p.hi * inverse;
+    let back = T::product(hi, q.hi);
+    Double { hi, lo: (((p.hi - back.hi) - back.lo) + (p.lo - hi * q.lo)) * inverse }
 }
 
 /// The octants put together; `arctangent` serves |d| <= 1/127.
 #[inline(always)]
-fn reflected(re: Double, im: Double, arctangent: impl Fn(Double) -> Double) -> Double {
-    if im.hi == 0.0 {
-        return if re.hi < 0.0 { Double { hi: PI, lo: PI_LOW } } else { Double::default() };
+fn reflected<T: Real>(
+    re: Double<T>,
+    im: Double<T>,
+    quotient: impl Fn(Double<T>, Double<T>) -> Double<T>,
+    arctangent: impl Fn(Double<T>) -> Double<T>,
+) -> Double<T> {
+    let (behind, below) = (re.hi.get() < 0.0, im.hi.get() < 0.0);
+    if im.hi.get() == 0.0 {
+        let half_turns = if behind { 1.0 } else { 0.0 };
+        return Double { hi: T::constant(half_turns * PI), lo: T::constant(half_turns * PI_LOW) };
     }
-    let magnitude = |x: Double| if x.hi < 0.0 { -x } else { x };
-    let (x, y) = (magnitude(re), magnitude(im));
-    let mut angle = if y.hi <= x.hi {
-        first_octant(x, y, arctangent)
+    let (x, y) = (re.times(sign(behind)), im.times(sign(below)));
+    let steep = y.hi.get() > x.hi.get();
+    let (x, y) = if steep { (y, x) } else { (x, y) };
+    // x and y are the longer and the shorter side from here on, and k <= 64.
+    let k = (64.0 * (y.hi.get() / x.hi.get()) + ROUND) - ROUND;
+    let atan = arctangent(quotient(combined(y, x, -k), combined(x, y, k)));
+    // The angle is turns·π/2 ± (table + atan).
+    let (hi, lo) = ARCTANGENTS[k as usize];
+    let quarters = if steep {
+        1.0
+    } else if behind {
+        2.0
     } else {
-        Double { hi: FRAC_PI_2, lo: 0.5 * PI_LOW } - first_octant(y, x, arctangent)
+        0.0
     };
-    if re.hi < 0.0 {
-        angle = Double { hi: PI, lo: PI_LOW } - angle;
-    }
-    if im.hi < 0.0 { -angle } else { angle }
+    let direction = sign(steep != behind);
+    let (start, start_low) = (T::constant(quarters * (0.5 * PI)), quarters * (0.5 * PI_LOW));
+    let sum = T::sum(start, T::constant(direction * hi));
+    let total = T::sum(sum.hi, T::constant(direction) * atan.hi);
+    let low = (sum.lo + total.lo) + (T::constant(start_low + direction * lo) + T::constant(direction) * atan.lo);
+    T::sum(total.hi, low).times(sign(below))
 }
 
-/// atan(y/x) for 0 <= y <= x, x > 0.
-#[inline]
-fn first_octant(x: Double, y: Double, arctangent: impl Fn(Double) -> Double) -> Double {
-    let k = (64.0 * (y.hi / x.hi)).round_ties_even();
-    // k has at most 7 bits and the scaling is exact; a small y keeps its relative accuracy because then k = 0.
-    let sixty_four = |z: Double| Double { hi: 64.0 * z.hi, lo: 64.0 * z.lo };
-    let (p, q) = (sixty_four(y) - x * k, sixty_four(x) + y * k);
-    let atan = arctangent(p / q);
-    let (hi, lo) = ARCTANGENTS[k as usize];
-    let sum = Double::sum(hi, atan.hi);
-    Double::sum(sum.hi, sum.lo + (lo + atan.lo))
+/// −1 or 1.
+#[inline(always)]
+fn sign(negative: bool) -> f64 {
+    if negative { -1.0 } else { 1.0 }
+}
+
+/// 64 x + k y for a whole k of at most 7 bits, within a few u² of the two terms.
+#[inline(always)]
+fn combined<T: Real>(x: Double<T>, y: Double<T>, k: f64) -> Double<T> {
+    let (x, k) = (x.times(64.0), T::constant(k));
+    let product = T::product(y.hi, k);
+    let sum = T::sum(x.hi, product.hi);
+    T::sum(sum.hi, sum.lo + ((product.lo + x.lo) + y.lo * k))
 }
 
 /// atan(k/64) for k = 0 … 64, each as a double and what is left of it.

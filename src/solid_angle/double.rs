@@ -2,10 +2,12 @@
 //!
 //! # Model
 //!
-//! u = 2⁻⁵³. `Double::sum`, `Double::difference` and `Double::product` of two `f64` are exact (the last one as long as the
-//! product exceeds 2⁻⁹⁶⁹). The other operations lose a few u² of the magnitudes that enter them. A target that has
-//! a fused multiply-add uses it for `product`; on a baseline x86-64 that would be a function call, and Veltkamp's splitting
-//! stands in. Both are exact, so the bits are the same.
+//! u = 2⁻⁵³. `Double::sum`, `Double::difference` and `Double::product` of two numbers are exact (the last one as long as
+//! the product exceeds 2⁻⁹⁶⁹). The other operations lose a few u² of the magnitudes that enter them.
+//!
+//! Everything is generic over the [`Number`] that the two halves are. `f64` takes the low half of a product with Veltkamp's
+//! splitting, `Fused` with one fused multiply-add; both are exact, so the bits are the same. A number that records its own
+//! operations turns the same source into the script of a proof: docs/proofs/README.md.
 //!
 //! # Source
 //!
@@ -14,15 +16,33 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Whether the target multiplies and adds in one instruction, known when the crate is compiled.
-const FUSED: bool = cfg!(any(target_feature = "fma", target_arch = "aarch64"));
+/// What the two halves of a double-length number are: rounded arithmetic, and what its sums and products leave.
+pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> {
+    /// The constant `x`.
+    fn constant(x: f64) -> Self;
+
+    /// a + b, exactly.
+    fn sum(a: Self, b: Self) -> Double<Self>;
+
+    /// a b, exactly.
+    fn product(a: Self, b: Self) -> Double<Self>;
+}
+
+/// A number with a value, to divide by and to compare.
+pub trait Real: Number + Div<Output = Self> {
+    /// The number itself.
+    fn get(self) -> f64;
+}
 
 /// The number `hi + lo`, with `hi` the double nearest to it.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Double {
-    pub hi: f64,
-    pub lo: f64,
+pub struct Double<T = f64> {
+    pub hi: T,
+    pub lo: T,
 }
+
+/// Whether the target multiplies and adds in one instruction, known when the crate is compiled.
+const FUSED: bool = cfg!(any(target_feature = "fma", target_arch = "aarch64"));
 
 /// The two halves of `x`, of 26 bits each, whose products are exact.
 #[inline(always)]
@@ -32,38 +52,94 @@ fn split(x: f64) -> (f64, f64) {
     (hi, x - hi)
 }
 
-impl Double {
-    /// a + b, exactly.
+impl Number for f64 {
     #[inline(always)]
-    pub fn sum(a: f64, b: f64) -> Self {
+    fn constant(x: f64) -> Self {
+        x
+    }
+
+    #[inline(always)]
+    fn sum(a: Self, b: Self) -> Double {
         let hi = a + b;
         let t = hi - a;
-        Self { hi, lo: (a - (hi - t)) + (b - t) }
+        Double { hi, lo: (a - (hi - t)) + (b - t) }
+    }
+
+    #[inline(always)]
+    fn product(a: Self, b: Self) -> Double {
+        let hi = a * b;
+        if FUSED {
+            return Double { hi, lo: a.mul_add(b, -hi) };
+        }
+        let ((ah, al), (bh, bl)) = (split(a), split(b));
+        Double { hi, lo: ((ah * bh - hi) + ah * bl + al * bh) + al * bl }
+    }
+}
+
+impl Real for f64 {
+    #[inline(always)]
+    fn get(self) -> f64 {
+        self
+    }
+}
+
+impl<T: Number> Double<T> {
+    /// a + b, exactly.
+    #[inline(always)]
+    pub fn sum(a: T, b: T) -> Self {
+        T::sum(a, b)
     }
 
     /// a − b, exactly.
     #[inline(always)]
-    pub fn difference(a: f64, b: f64) -> Self {
-        Self::sum(a, -b)
+    pub fn difference(a: T, b: T) -> Self {
+        T::sum(a, -b)
     }
 
     /// a b, exactly.
     #[inline(always)]
-    pub fn product(a: f64, b: f64) -> Self {
-        let hi = a * b;
-        if FUSED {
-            return Self { hi, lo: a.mul_add(b, -hi) };
-        }
-        let ((ah, al), (bh, bl)) = (split(a), split(b));
-        Self { hi, lo: ((ah * bh - hi) + ah * bl + al * bh) + al * bl }
+    pub fn product(a: T, b: T) -> Self {
+        T::product(a, b)
     }
 
     /// The double nearest to the number.
     #[inline(always)]
-    pub fn value(self) -> f64 {
+    pub fn value(self) -> T {
         self.hi + self.lo
     }
 
+    /// a b + c d, within a few u² of |a b| + |c d|.
+    #[inline(always)]
+    pub fn pair(a: Self, b: Self, c: Self, d: Self) -> Self {
+        let (p, q) = (T::product(a.hi, b.hi), T::product(c.hi, d.hi));
+        let s = T::sum(p.hi, q.hi);
+        let cross = (a.hi * b.lo + a.lo * b.hi) + (c.hi * d.lo + c.lo * d.hi);
+        T::sum(s.hi, s.lo + ((p.lo + q.lo) + cross))
+    }
+
+    /// The constant `x`.
+    #[inline(always)]
+    pub fn constant(x: f64) -> Self {
+        Self { hi: T::constant(x), lo: T::constant(0.0) }
+    }
+}
+
+impl<T: Real> Double<T> {
+    /// The number times a power of two or its opposite, exactly.
+    #[inline(always)]
+    pub fn times(self, power: f64) -> Self {
+        let power = T::constant(power);
+        Self { hi: self.hi * power, lo: self.lo * power }
+    }
+
+    /// The same number for another arithmetic.
+    #[inline(always)]
+    pub fn cast<U: Real>(self) -> Double<U> {
+        Double { hi: U::constant(self.hi.get()), lo: U::constant(self.lo.get()) }
+    }
+}
+
+impl Double {
     /// The square root of a number >= 0.
     pub fn sqrt(self) -> Self {
         let root = self.hi.sqrt();
@@ -73,23 +149,20 @@ impl Double {
         let square = Self::product(root, root);
         Self::sum(root, ((self.hi - square.hi) - square.lo + self.lo) / (2.0 * root))
     }
+}
 
-    /// a b + c d, within a few u² of |a b| + |c d|.
-    #[inline(always)]
-    pub fn pair(a: Self, b: Self, c: Self, d: Self) -> Self {
-        let (p, q) = (Self::product(a.hi, b.hi), Self::product(c.hi, d.hi));
-        let s = Self::sum(p.hi, q.hi);
-        let cross = (a.hi * b.lo + a.lo * b.hi) + (c.hi * d.lo + c.lo * d.hi);
-        Self::sum(s.hi, s.lo + ((p.lo + q.lo) + cross))
-    }
+/// The three values of `f`. The standard library's `map` is a call where the caller is compiled for a feature of its own.
+#[inline(always)]
+pub fn three<U>(f: impl Fn(usize) -> U) -> [U; 3] {
+    [f(0), f(1), f(2)]
 }
 
 /// a·b, within a few u² of Σ |aᵢ bᵢ|; `hi` is near the sum, not always nearest to it.
 #[inline(always)]
-pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> Double {
-    let [x, y, z] = [0, 1, 2].map(|i| Double::product(a[i], b[i]));
-    let s = Double::sum(x.hi, y.hi);
-    let t = Double::sum(s.hi, z.hi);
+pub fn dot<T: Number>(a: [T; 3], b: [T; 3]) -> Double<T> {
+    let [x, y, z] = three(|i| T::product(a[i], b[i]));
+    let s = T::sum(x.hi, y.hi);
+    let t = T::sum(s.hi, z.hi);
     Double { hi: t.hi, lo: ((x.lo + y.lo) + z.lo) + (s.lo + t.lo) }
 }
 
@@ -100,18 +173,18 @@ impl From<f64> for Double {
     }
 }
 
-impl Add for Double {
+impl<T: Number> Add for Double<T> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        let s = Self::sum(self.hi, other.hi);
-        let t = Self::sum(self.lo, other.lo);
-        let s = Self::sum(s.hi, s.lo + t.hi);
-        Self::sum(s.hi, s.lo + t.lo)
+        let s = T::sum(self.hi, other.hi);
+        let t = T::sum(self.lo, other.lo);
+        let s = T::sum(s.hi, s.lo + t.hi);
+        T::sum(s.hi, s.lo + t.lo)
     }
 }
 
-impl Neg for Double {
+impl<T: Number> Neg for Double<T> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -119,7 +192,7 @@ impl Neg for Double {
     }
 }
 
-impl Sub for Double {
+impl<T: Number> Sub for Double<T> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -127,31 +200,31 @@ impl Sub for Double {
     }
 }
 
-impl Mul for Double {
+impl<T: Number> Mul for Double<T> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        let p = Self::product(self.hi, other.hi);
-        Self::sum(p.hi, p.lo + (self.hi * other.lo + self.lo * other.hi))
+        let p = T::product(self.hi, other.hi);
+        T::sum(p.hi, p.lo + (self.hi * other.lo + self.lo * other.hi))
     }
 }
 
-impl Mul<f64> for Double {
+impl<T: Number> Mul<T> for Double<T> {
     type Output = Self;
     #[inline(always)]
-    fn mul(self, factor: f64) -> Self {
-        let p = Self::product(self.hi, factor);
-        Self::sum(p.hi, p.lo + self.lo * factor)
+    fn mul(self, factor: T) -> Self {
+        let p = T::product(self.hi, factor);
+        T::sum(p.hi, p.lo + self.lo * factor)
     }
 }
 
-impl Div for Double {
+impl<T: Real> Div for Double<T> {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: Self) -> Self {
         let hi = self.hi / other.hi;
-        let back = Self::product(hi, other.hi);
-        Self::sum(hi, (((self.hi - back.hi) - back.lo) + (self.lo - hi * other.lo)) / other.hi)
+        let back = T::product(hi, other.hi);
+        T::sum(hi, (((self.hi - back.hi) - back.lo) + (self.lo - hi * other.lo)) / other.hi)
     }
 }
 

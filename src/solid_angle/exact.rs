@@ -108,6 +108,8 @@ pub(super) fn norm_error(v: [f64; 3]) -> Double {
 }
 
 /// Whether a×b = 0 exactly.
+#[cold]
+#[inline(never)]
 fn parallel(a: [f64; 3], b: [f64; 3]) -> bool {
     [(1, 2), (2, 0), (0, 1)].iter().all(|&(i, j)| {
         let (p, q) = (Double::product(a[i], b[j]), Double::product(a[j], b[i]));
@@ -119,15 +121,15 @@ fn parallel(a: [f64; 3], b: [f64; 3]) -> bool {
 const NEAR: f64 = 1.0 / (1_u64 << 39) as f64;
 
 /// Whether the near-unit vectors `a` and `b` have exactly the same direction.
-#[inline]
+#[inline(always)]
 pub(super) fn same_direction(a: [f64; 3], b: [f64; 3]) -> bool {
-    (0..3).all(|i| (a[i] - b[i]).abs() <= NEAR) && parallel(a, b)
+    (a[0] - b[0]).abs() <= NEAR && (a[1] - b[1]).abs() <= NEAR && (a[2] - b[2]).abs() <= NEAR && parallel(a, b)
 }
 
 /// Whether the near-unit vectors `a` and `b` have exactly opposite directions.
-#[inline]
+#[inline(always)]
 pub(super) fn antipodal(a: [f64; 3], b: [f64; 3]) -> bool {
-    (0..3).all(|i| (a[i] + b[i]).abs() <= NEAR) && parallel(a, b)
+    (a[0] + b[0]).abs() <= NEAR && (a[1] + b[1]).abs() <= NEAR && (a[2] + b[2]).abs() <= NEAR && parallel(a, b)
 }
 
 #[cfg(test)]

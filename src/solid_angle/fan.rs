@@ -40,8 +40,10 @@ use core::f64::consts::PI;
 use glam::DVec3;
 
 use super::argument::argument;
-use super::double::{Double, dot};
+use super::dispatch::{self, Kernel};
+use super::double::{Double, Real, dot, three};
 use super::exact;
+use super::kernel::{self, Complex, denominator, numerator, times};
 
 /// Below this part of the two lengths the compensated numerator is not trusted: 2⁻⁴².
 const NUMERATOR_FLOOR: f64 = 1.0 / (1_u64 << 42) as f64;
@@ -55,166 +57,195 @@ const NOISE: f64 = 1.0 / ((1_u64 << 49) as f64 * (1_u64 << 49) as f64);
 /// 4π − `4.0 * PI`.
 const FOUR_PI_LOW: f64 = 4.898_587_196_589_413e-16;
 
-/// A vertex on the rim of the fan, with what two neighbouring triangles share.
-#[derive(Clone, Copy)]
-struct Spoke {
-    v: [f64; 3],
-    /// |v| − 1.
-    excess: f64,
-    /// v − apex.
-    offset: [Double; 3],
-    /// v · apex.
-    cosine: Double,
+/// What the fan of a loop adds up to.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Fan {
+    /// Half of the signed solid angle, in (−π, π], unevaluated.
+    pub half: Double,
+    /// How many turns of 4π the sum over the fan is ahead of twice `half`: it crossed from 2π to −2π that much more often
+    /// than back.
+    pub turns: i64,
+    /// Σ |sin| of the factors' arguments, each to within a factor of √2: what the terms that may cancel amount to.
+    pub swept: f64,
+    /// How many factors were multiplied.
+    pub factors: usize,
 }
 
-/// One factor of the product.
-#[derive(Clone, Copy)]
-struct Factor {
-    re: Double,
-    im: Double,
-}
+impl Fan {
+    /// The signed solid angle before it is rounded.
+    pub fn angle(&self) -> Double {
+        Double { hi: 2.0 * self.half.hi, lo: 2.0 * self.half.lo }
+    }
 
-/// Half of a signed solid angle, in (−π, π], unevaluated.
-pub(super) struct HalfAngle(Double);
-
-impl HalfAngle {
     /// The signed solid angle, in (−2π, 2π].
     pub fn signed(&self) -> f64 {
-        2.0 * self.0.value()
+        2.0 * self.half.value()
     }
 
     /// The solid angle of the region on the left, in [0, 4π).
     pub fn unsigned(&self) -> f64 {
-        if self.0.hi >= 0.0 {
+        if self.half.hi >= 0.0 {
             return self.signed();
         }
-        let sum = Double::sum(4.0 * PI, 2.0 * self.0.hi);
-        sum.hi + (sum.lo + (2.0 * self.0.lo + FOUR_PI_LOW))
+        let sum = Double::sum(4.0 * PI, 2.0 * self.half.hi);
+        sum.hi + (sum.lo + (2.0 * self.half.lo + FOUR_PI_LOW))
     }
 }
 
-/// Half the solid angle of a loop without whiskers; any loop of fewer than three vertices has none.
-pub(super) fn half_angle(vertices: &[DVec3]) -> HalfAngle {
-    let [apex, first, rest @ ..] = vertices else { return HalfAngle(Double::default()) };
-    let apex = apex.to_array();
-    let apex_excess = excess(apex);
-    let mut product: Option<Factor> = None;
-    let mut swept = 0.0;
-    let mut b = Spoke::new(apex, first.to_array());
-    let mut rest = rest.iter();
-    while let Some(c) = rest.next() {
-        let c = c.to_array();
-        let (factor, spoke) = if exact::antipodal(apex, c) {
-            // The next vertex is neither this one nor the apex: the loop was checked and pruned.
-            let Some(next) = rest.next() else { break };
-            let next = next.to_array();
-            (lune(apex, apex_excess, b.v, next), Spoke::new(apex, next))
-        } else {
-            let c = Spoke::new(apex, c);
-            (triangle(apex, apex_excess, &b, &c), c)
-        };
-        swept += factor.slope();
-        product = Some(product.map_or(factor, |product| product.times(factor)));
-        b = spoke;
-    }
-    let Some(Factor { re, mut im }) = product else { return HalfAngle(Double::default()) };
-    if im.hi.abs() <= NOISE * swept * (re.hi.abs() + im.hi.abs()) {
-        im = Double::default();
-    }
-    HalfAngle(argument(re, im))
+/// The fan of a loop without whiskers; any loop of fewer than three vertices has none.
+pub(super) fn fan(vertices: &[DVec3]) -> Fan {
+    dispatch::run(Loop(vertices))
 }
 
-/// |v| − 1 of a near-unit vector, from its compensated norm; the third power of the deviation is below 2⁻¹²².
+struct Loop<'a>(&'a [DVec3]);
+
+impl Kernel for Loop<'_> {
+    type Output = Fan;
+
+    #[inline(always)]
+    fn run<T: Real>(self) -> Fan {
+        let [apex, first, rest @ ..] = self.0 else { return Fan::default() };
+        let apex = Apex::<T>::new(apex.to_array());
+        let mut sum = Fan::default();
+        let mut product = None;
+        let mut b = Spoke::new(&apex, first.to_array());
+        let mut rest = rest.iter();
+        while let Some(c) = rest.next() {
+            let c = c.to_array();
+            let (factor, spoke) = if exact::antipodal(values(apex.v), c) {
+                // The next vertex is neither this one nor the apex: the loop was checked and pruned.
+                let Some(next) = rest.next() else { break };
+                let next = next.to_array();
+                (lune(&apex, values(b.v), next), Spoke::new(&apex, next))
+            } else {
+                let c = Spoke::new(&apex, c);
+                (triangle(&apex, &b, &c), c)
+            };
+            sum.swept += slope(factor);
+            sum.factors += 1;
+            product = Some(match product {
+                None => factor,
+                Some(old) => {
+                    let new = scaled(times(old, factor));
+                    sum.turns += turn(upper(old), upper(factor), upper(new));
+                    new
+                }
+            });
+            b = spoke;
+        }
+        let Some(Complex { re, mut im }) = product else { return Fan::default() };
+        let (x, y) = (re.hi.get().abs(), im.hi.get().abs());
+        if y <= NOISE * sum.swept * (x + y) {
+            // From just above −π to π.
+            sum.turns -= i64::from(re.hi.get() < 0.0 && im.hi.get() < 0.0);
+            im = Double::constant(0.0);
+        }
+        sum.half = argument(re, im);
+        sum
+    }
+}
+
+/// The vertex that all triangles share.
+struct Apex<T> {
+    v: [T; 3],
+    /// |v| − 1.
+    excess: T,
+}
+
+/// A vertex on the rim of the fan, with what two neighbouring triangles share.
+#[derive(Clone, Copy)]
+struct Spoke<T> {
+    v: [T; 3],
+    /// |v| − 1.
+    excess: T,
+    /// v − apex.
+    offset: [Double<T>; 3],
+    /// v · apex.
+    cosine: Double<T>,
+}
+
+/// The plain numbers of a vector.
+#[inline(always)]
+fn values<T: Real>(v: [T; 3]) -> [f64; 3] {
+    three(|i| v[i].get())
+}
+
+/// |v| − 1 of a near-unit vector.
 #[inline(always)]
 pub(super) fn excess(v: [f64; 3]) -> f64 {
-    let [x, y, z] = v.map(|x| Double::product(x, x));
-    let s = Double::sum(x.hi, y.hi);
-    let t = Double::sum(s.hi, z.hi);
-    let error = (t.hi - 1.0) + (((x.lo + y.lo) + z.lo) + (s.lo + t.lo));
-    error * (0.5 - 0.125 * error)
+    kernel::excess(v)
 }
 
-impl Spoke {
+impl<T: Real> Apex<T> {
     #[inline(always)]
-    fn new(apex: [f64; 3], v: [f64; 3]) -> Self {
-        let offset = [0, 1, 2].map(|i| Double::difference(v[i], apex[i]));
-        Self { v, excess: excess(v), offset, cosine: dot(apex, v) }
+    fn new(v: [f64; 3]) -> Self {
+        let v = three(|i| T::constant(v[i]));
+        Self { v, excess: kernel::excess(v) }
     }
 }
 
-impl Factor {
-    /// |sin| of the argument within a factor of √2: what this triangle adds to the area that cancels.
+impl<T: Real> Spoke<T> {
     #[inline(always)]
-    fn slope(&self) -> f64 {
-        let im = self.im.hi.abs();
-        if im > 0.0 { im / (self.re.hi.abs() + im) } else { 0.0 }
+    fn new(apex: &Apex<T>, v: [f64; 3]) -> Self {
+        let v = three(|i| T::constant(v[i]));
+        Self { v, excess: kernel::excess(v), offset: kernel::offset(apex.v, v), cosine: dot(apex.v, v) }
     }
+}
 
-    /// The product, scaled by a power of two where it would leave the middle of the range.
-    #[inline(always)]
-    fn times(self, other: Self) -> Self {
-        let re = Double::pair(self.re, other.re, -self.im, other.im);
-        let im = Double::pair(self.re, other.im, self.im, other.re);
-        let magnitude = re.hi.abs().max(im.hi.abs());
-        if (FACTOR_FLOOR..=1.0 / FACTOR_FLOOR).contains(&magnitude) {
-            return Self { re, im };
-        }
-        Self { re, im }.rescaled(magnitude)
-    }
+/// |sin| of the argument within a factor of √2: what this triangle adds to the area that cancels.
+#[inline(always)]
+fn slope<T: Real>(factor: Complex<T>) -> f64 {
+    let im = factor.im.hi.get().abs();
+    if im > 0.0 { im / (factor.re.hi.get().abs() + im) } else { 0.0 }
+}
 
-    #[cold]
-    fn rescaled(self, magnitude: f64) -> Self {
-        if magnitude == 0.0 {
-            return self;
-        }
-        // The power of two of the magnitude: its exponent field alone.
-        let scale = 1.0 / f64::from_bits(magnitude.to_bits() & 0x7ff0_0000_0000_0000).max(f64::MIN_POSITIVE);
-        let scaled = |x: Double| Double { hi: x.hi * scale, lo: x.lo * scale };
-        Self { re: scaled(self.re), im: scaled(self.im) }
+/// Whether the argument is in (0, π].
+#[inline(always)]
+fn upper<T: Real>(z: Complex<T>) -> bool {
+    let (re, im) = (z.re.hi.get(), z.im.hi.get());
+    im > 0.0 || (im == 0.0 && re < 0.0)
+}
+
+/// How a factor takes the running argument over the half turn, from the three `upper`s: 1, −1 or not at all.
+///
+/// A factor's argument is in (−π, π]. A positive one can only leave the upper half over the half turn, a negative one
+/// can only enter it so.
+#[inline(always)]
+fn turn(old: bool, factor: bool, new: bool) -> i64 {
+    i64::from(factor && old && !new) - i64::from(!factor && !old && new)
+}
+
+/// `z`, scaled by a power of two where it leaves the middle of the range.
+#[inline(always)]
+fn scaled<T: Real>(z: Complex<T>) -> Complex<T> {
+    let magnitude = z.re.hi.get().abs().max(z.im.hi.get().abs());
+    if (FACTOR_FLOOR..=1.0 / FACTOR_FLOOR).contains(&magnitude) || magnitude == 0.0 {
+        return z;
     }
+    // The power of two of the magnitude: its exponent field alone.
+    let scale = T::constant(1.0 / f64::from_bits(magnitude.to_bits() & 0x7ff0_0000_0000_0000).max(f64::MIN_POSITIVE));
+    let scaled = |x: Double<T>| Double { hi: x.hi * scale, lo: x.lo * scale };
+    Complex { re: scaled(z.re), im: scaled(z.im) }
 }
 
 /// The factor of the triangle `apex b c`.
 #[inline(always)]
-fn triangle(apex: [f64; 3], apex_excess: f64, b: &Spoke, c: &Spoke) -> Factor {
-    let mut im = numerator(apex, &b.offset, &c.offset);
-    let length = |p: &[Double; 3]| p[0].hi.abs().max(p[1].hi.abs()).max(p[2].hi.abs());
-    if im.hi.abs() <= NUMERATOR_FLOOR * length(&b.offset) * length(&c.offset) {
-        im = exact::determinant(apex, b.v, c.v);
-    }
-    let re = denominator(apex_excess, b, c);
-    if re.hi.abs() + im.hi.abs() < FACTOR_FLOOR {
-        return near_antipodal(apex, b.v, c.v, im);
-    }
-    Factor { re, im }
-}
-
-/// apex·(p×q), within 65.25 u² |p| |q| (largest components).
-#[inline(always)]
-fn numerator(apex: [f64; 3], p: &[Double; 3], q: &[Double; 3]) -> Double {
-    let minor = |i: usize, j: usize| {
-        let (u, v) = (Double::product(p[i].hi, q[j].hi), Double::product(p[j].hi, q[i].hi));
-        let n = Double::difference(u.hi, v.hi);
-        let cross = p[i].hi * q[j].lo + (p[i].lo * q[j].hi - (p[j].hi * q[i].lo + p[j].lo * q[i].hi));
-        (n.hi, ((u.lo - v.lo) + n.lo) + cross)
+fn triangle<T: Real>(apex: &Apex<T>, b: &Spoke<T>, c: &Spoke<T>) -> Complex<T> {
+    let mut im = numerator(apex.v, &b.offset, &c.offset);
+    let length = |p: &[Double<T>; 3]| {
+        let [x, y, z] = three(|i| p[i].hi.get().abs());
+        x.max(y).max(z)
     };
-    let n = [minor(1, 2), minor(2, 0), minor(0, 1)];
-    let main = dot(apex, n.map(|(hi, _)| hi));
-    let low = apex[0] * n[0].1 + apex[1] * n[1].1 + apex[2] * n[2].1;
-    Double::sum(main.hi, main.lo + low)
-}
-
-/// |a||b||c| + (a·b)|c| + (b·c)|a| + (c·a)|b|, to first order in the norms' deviations from 1.
-#[inline(always)]
-fn denominator(apex_excess: f64, b: &Spoke, c: &Spoke) -> Double {
-    let opposite = dot(b.v, c.v);
-    let s = Double::sum(b.cosine.hi, c.cosine.hi);
-    let t = Double::sum(s.hi, opposite.hi);
-    let w = Double::sum(t.hi, 1.0);
-    let norms = (apex_excess + b.excess + c.excess)
-        + (opposite.hi * apex_excess + c.cosine.hi * b.excess + b.cosine.hi * c.excess);
-    let low = ((b.cosine.lo + c.cosine.lo) + opposite.lo) + ((s.lo + t.lo) + w.lo);
-    Double::sum(w.hi, low + norms)
+    if im.hi.get().abs() <= NUMERATOR_FLOOR * length(&b.offset) * length(&c.offset) {
+        im = exact::determinant(values(apex.v), values(b.v), values(c.v)).cast();
+    }
+    let cosines = [b.cosine, dot(b.v, c.v), c.cosine];
+    let re = denominator(cosines, [apex.excess, b.excess, c.excess]);
+    if re.hi.get().abs() + im.hi.get().abs() < FACTOR_FLOOR {
+        let Complex { re, im } = near_antipodal(values(apex.v), values(b.v), values(c.v), im.cast());
+        return Complex { re: re.cast(), im: im.cast() };
+    }
+    Complex { re, im }
 }
 
 /// 1/|v| − 1 in double length, from the exact |v|² − 1.
@@ -232,7 +263,7 @@ pub(super) fn deficit(v: [f64; 3]) -> Double {
 /// |D| cannot be small against the lengths of the two sums unless N is large against it.
 #[cold]
 #[inline(never)]
-fn near_antipodal(a: [f64; 3], b: [f64; 3], c: [f64; 3], im: Double) -> Factor {
+fn near_antipodal(a: [f64; 3], b: [f64; 3], c: [f64; 3], im: Double) -> Complex<f64> {
     let deficits = [a, b, c].map(deficit);
     let sum = |i: usize, j: usize| {
         let (v, w) = ([a, b, c][i], [a, b, c][j]);
@@ -243,27 +274,105 @@ fn near_antipodal(a: [f64; 3], b: [f64; 3], c: [f64; 3], im: Double) -> Factor {
     sums.sort_by(|s, t| length(s).total_cmp(&length(t)));
     let re = sums[0][0] * sums[1][0] + sums[0][1] * sums[1][1] + sums[0][2] * sums[1][2];
     let norms = deficits[0] + deficits[1] + deficits[2];
-    Factor { re, im: im + im * norms }
+    Complex { re, im: im + im * norms }
 }
 
 /// The factor of the lune from `p` over the antipode of `apex` to `q`: its argument is the azimuth from p to q.
 #[cold]
 #[inline(never)]
-fn lune(apex: [f64; 3], apex_excess: f64, p: [f64; 3], q: [f64; 3]) -> Factor {
-    let (u, v) = (exact::cross(apex, p), exact::cross(apex, q));
-    let re = u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-    let det = exact::determinant(apex, p, q);
-    Factor { re, im: det + det * apex_excess }
+fn lune<T: Real>(apex: &Apex<T>, p: [f64; 3], q: [f64; 3]) -> Complex<T> {
+    let v = values(apex.v);
+    let (s, t) = (exact::cross(v, p), exact::cross(v, q));
+    let re = s[0] * t[0] + s[1] * t[1] + s[2] * t[2];
+    let det = exact::determinant(v, p, q);
+    Complex { re: re.cast(), im: (det + det * apex.excess.get()).cast() }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::excess;
+    use core::f64::consts::{FRAC_PI_2, PI, TAU};
+
+    use glam::DVec3;
+
+    use super::super::dispatch::Kernel;
+    use super::super::fused::Fused;
+    use super::{Fan, Loop, excess, fan};
+
+    /// The sum over the fan, not reduced.
+    fn total(fan: &Fan) -> f64 {
+        fan.signed() + 2.0 * TAU * fan.turns as f64
+    }
 
     #[test]
     fn excess_of_a_norm_is_exact_to_second_order() {
         let beyond = 2_f64.powi(-42);
         assert_eq!(excess([0.0, 1.0 + beyond, 0.0]), beyond);
         assert_eq!(excess([0.0, 0.0, beyond - 1.0]), -beyond);
+    }
+
+    #[test]
+    fn turns_count_how_often_the_fan_winds() {
+        let octant = [DVec3::X, DVec3::Y, DVec3::Z];
+        for times in 1..20 {
+            let mut wound = octant.repeat(times);
+            let forth = fan(&wound);
+            assert_eq!(forth.factors, 3 * times - 2);
+            assert!((total(&forth) - times as f64 * FRAC_PI_2).abs() < 1e-14, "{times}: {forth:?}");
+            wound.reverse();
+            assert!((total(&fan(&wound)) + times as f64 * FRAC_PI_2).abs() < 1e-14, "{times}");
+        }
+        // Twice around 60 degrees from the pole, seen from a vertex: 2 · 2π (1 − cos 60°) less what the chords cut off.
+        let ring: Vec<_> = (0..2000)
+            .map(|i| {
+                let (sin, cos) = (TAU * f64::from(i) / 1000.0).sin_cos();
+                DVec3::new(0.75_f64.sqrt() * cos, 0.75_f64.sqrt() * sin, 0.5).normalize()
+            })
+            .collect();
+        let got = fan(&ring);
+        assert!((total(&got) - TAU).abs() < 1e-4, "{got:?}");
+        // The same as hemispheres that end exactly on the half turn.
+        let equator = [DVec3::X, DVec3::new(-0.6, 0.8, 0.0), DVec3::new(-0.6, -0.8, 0.0)];
+        let twice = fan(&equator.repeat(2));
+        assert_eq!((twice.half.value(), twice.turns), (0.0, 1), "{twice:?}");
+        assert_eq!(fan(&equator).half.value(), PI);
+    }
+
+    /// Loops of every kind that the kernel tells apart, from a linear congruence.
+    fn loops() -> impl Iterator<Item = Vec<DVec3>> {
+        let mut state = 1_u64;
+        let mut next = move || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        let mut direction = move || loop {
+            let v = DVec3::new(next(), next(), next()) * 2.0 - 1.0;
+            if (1e-3..1.0).contains(&v.length_squared()) {
+                break v.normalize();
+            }
+        };
+        (0..20_000).map(move |i: i32| {
+            let (a, b) = (direction(), direction());
+            let size = 10_f64.powi(-(i / 8 % 15));
+            let near = |v: DVec3, d: DVec3| (v + size * d).normalize();
+            match i % 8 {
+                0 => vec![a, b, direction()],
+                1 => (0..8).map(|_| near(a, direction())).collect(),
+                2 => vec![a, b, near(a.lerp(b, 0.4), direction())],
+                3 => vec![a, near(-a, direction()), b],
+                4 => vec![a, b, -a, direction(), near(-a, direction())],
+                5 => (0..40).map(|_| direction()).collect(),
+                6 => vec![a, b, -(a + b).normalize(), near(a, direction())],
+                _ => (0..6).map(|_| near(DVec3::Z, size * direction() * DVec3::new(1.0, 1e-250, 1.0))).collect(),
+            }
+        })
+    }
+
+    #[test]
+    fn both_copies_give_the_same_bits() {
+        for vertices in loops() {
+            let (split, fused) = (Loop(&vertices).run::<f64>(), Loop(&vertices).run::<Fused>());
+            assert_eq!(format!("{split:?}"), format!("{fused:?}"), "{vertices:?}");
+            assert_eq!(format!("{split:?}"), format!("{:?}", fan(&vertices)), "{vertices:?}");
+        }
     }
 }

@@ -14,6 +14,7 @@ use core::f64::consts::PI;
 
 use glam::DVec3;
 
+use super::argument::short_argument;
 use super::moment::{SHORT_COSINE, bulge_of_edge};
 use crate::float;
 
@@ -67,8 +68,7 @@ pub fn signed_polygon(vertices: &[DVec3]) -> f64 {
 
 /// Twice the argument, in (−2π, 2π].
 fn signed(re: f64, im: f64) -> f64 {
-    // Adding zero turns −0 into 0, so that a half turn has one sign.
-    2.0 * float::atan2(im + 0.0, re)
+    2.0 * short_argument(re, im)
 }
 
 /// Vector moment ½ Σ θₑ n̂ₑ of the region on the left of the closed loop `vertices`.

@@ -17,6 +17,8 @@
 //!
 //! 1. Solid angles are within [`ANGLE_BOUND`] of the exact value of the given doubles, from 1e-240 sr to 4π, needles and
 //!    edges that are nearly half turns included: tests/solid_angle_oracle.rs.
+//!    Ten thousand polygons of each of 32 classes, drawn afresh for every seed, against 384 binary places:
+//!    tests/solid_angle_exact.rs; the bounded, winding, seen and geographic forms: tests/solid_angle_forms.rs.
 //! 2. Moments are within [`MOMENT_BOUND`] of the exact vector, however small the region: tests/solid_angle_oracle.rs.
 //! 3. Neither the first vertex nor the axes matter, reversal changes the sign, parts add up: tests/solid_angle_laws.rs.
 //! 4. What encloses nothing, such as edges walked forth and back, is exactly 0: tests/solid_angle_laws.rs.
@@ -26,7 +28,7 @@
 //!
 //! # Not here
 //!
-//! - Vectors of other lengths: normalise them, or [`formula::van_oosterom_strackee`].
+//! - Vectors of other lengths: [`seen_from`] the origin takes their exact directions.
 //! - Speed without accuracy: [`fast`].
 //! - An edge between opposite points has no direction: it is refused. Put a vertex on it.
 //! - The empty loop as the whole sphere: it is refused.
@@ -54,19 +56,31 @@
 //! ```
 
 mod argument;
+mod bounded;
 mod check;
+mod dispatch;
 mod double;
 mod error;
 mod exact;
 mod fan;
 pub mod fast;
 pub mod formula;
+mod fused;
+mod geographic;
+mod kernel;
 mod moment;
+mod product;
+mod seen;
+mod winding;
 
 use glam::DVec3;
 
+pub use bounded::{Bounded, polygon_bounded, signed_polygon_bounded};
 pub use check::UNIT_TOLERANCE;
 pub use error::SolidAngleError;
+pub use geographic::{GEOGRAPHIC_FLOOR, geographic_polygon};
+pub use seen::seen_from;
+pub use winding::winding;
 
 /// Error of a solid angle in units of the last place of the exact value, searched: 0.51.
 ///
@@ -153,7 +167,7 @@ pub fn triangle(a: DVec3, b: DVec3, c: DVec3) -> Result<f64, SolidAngleError> {
 /// # Ok::<(), solid_angle::SolidAngleError>(())
 /// ```
 pub fn polygon(vertices: &[DVec3]) -> Result<f64, SolidAngleError> {
-    measured(vertices, |pruned| fan::half_angle(pruned).unsigned())
+    measured(vertices, |pruned| fan::fan(pruned).unsigned())
 }
 
 /// Signed solid angle of the region on the left of the closed loop `vertices`, in steradians.
@@ -184,7 +198,7 @@ pub fn polygon(vertices: &[DVec3]) -> Result<f64, SolidAngleError> {
 /// # Ok::<(), solid_angle::SolidAngleError>(())
 /// ```
 pub fn signed_polygon(vertices: &[DVec3]) -> Result<f64, SolidAngleError> {
-    measured(vertices, |pruned| fan::half_angle(pruned).signed())
+    measured(vertices, |pruned| fan::fan(pruned).signed())
 }
 
 /// Vector moment ∫ ω dω of the region on the left of the closed loop `vertices`.
@@ -230,5 +244,5 @@ pub fn vector_moment(vertices: &[DVec3]) -> Result<DVec3, SolidAngleError> {
 /// `measure` of the loop, checked and pruned.
 fn measured<T>(vertices: &[DVec3], measure: impl Fn(&[DVec3]) -> T) -> Result<T, SolidAngleError> {
     check::check(vertices)?;
-    Ok(if check::has_whiskers(vertices) { measure(&check::prune(vertices)) } else { measure(vertices) })
+    Ok(check::pruned(vertices, check::same, measure))
 }

@@ -16,7 +16,7 @@
 //! # Accuracy
 //!
 //! With E = ½ Σ wₑ, wₑ = |θₑ − sin θₑ| for edges up to 0.927 rad and θₑ for longer ones, the `f64` of the second sum costs
-//! a few u E. Where E exceeds 4 |M| (needles, slivers, long thin bands) the second sum is repeated in double length.
+//! a few u E. Where E exceeds |M| (needles, slivers, long thin bands) the second sum is repeated in double length.
 //!
 //! # Source
 //!
@@ -31,7 +31,7 @@ use super::fan::{deficit, excess};
 use crate::float;
 
 /// How many times the moment E may be before the second sum is repeated in double length.
-const CANCELLATION: f64 = 4.0;
+const CANCELLATION: f64 = 1.0;
 
 /// Edges with a larger cosine are short, below 0.377 rad: 12 powers of at most 0.035 are enough.
 pub(super) const SHORT_COSINE: f64 = 0.93;

@@ -26,6 +26,15 @@ pub const TABLE: &[(&str, &str, f64, &str)] = &[
     ("vector_moment", "law: any", 8.0, "searched: laws"),
     // Relative, of a regular polygon whose vertices are rounded.
     ("polygon", "law: cap", 1e-13, "searched: laws"),
+    // The bound that a bounded value states, in units of the last place.
+    ("polygon_bounded", "*", 0.8, "searched: 384 places"),
+    // In units of 2⁻⁵³ of the larger half.
+    ("polygon_bounded", "figure of eight", 0.1, "searched: 384 places"),
+    ("winding", "*", 0.51, "searched: 384 places"),
+    // In units of 2⁻⁵² of the integral or 2π: some roundings of the area of one turn.
+    ("winding", "law: turns", 8.0, "a sum of roundings"),
+    ("seen_from", "*", 0.51, "searched: 384 places"),
+    ("geographic_polygon", "*", 0.51, "searched: 384 places"),
     // Absolute, on convex rings of radius 0.1 to 1.2.
     ("interior_angles_acos", "ring", 1e-12, "searched: formulas"),
     ("interior_angles_atan2", "ring", 1e-12, "searched: formulas"),

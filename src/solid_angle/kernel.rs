@@ -1,0 +1,68 @@
+//! The arithmetic of one factor of the fan, with its proved error bounds.
+//!
+//! Generic over the number, and dependent on nothing but double length: the proofs of docs/proofs are written by running
+//! these very functions on numbers that record what is done to them.
+
+use super::double::{Double, Number, dot, three};
+
+/// A complex number in double length.
+#[derive(Clone, Copy)]
+pub struct Complex<T> {
+    pub re: Double<T>,
+    pub im: Double<T>,
+}
+
+/// |v| − 1 of a near-unit vector, from its compensated norm; the third power of the deviation is below 2⁻¹²².
+#[inline(always)]
+pub fn excess<T: Number>(v: [T; 3]) -> T {
+    let error = norm_error(v);
+    error * (T::constant(0.5) - T::constant(0.125) * error)
+}
+
+/// |v|² − 1.
+#[inline(always)]
+pub fn norm_error<T: Number>(v: [T; 3]) -> T {
+    let square = dot(v, v);
+    (square.hi - T::constant(1.0)) + square.lo
+}
+
+/// v − a, exactly.
+#[inline(always)]
+pub fn offset<T: Number>(a: [T; 3], v: [T; 3]) -> [Double<T>; 3] {
+    three(|i| Double::difference(v[i], a[i]))
+}
+
+/// apex·(p×q).
+#[inline(always)]
+pub fn numerator<T: Number>(apex: [T; 3], p: &[Double<T>; 3], q: &[Double<T>; 3]) -> Double<T> {
+    let minor = |i: usize, j: usize| {
+        let (u, v) = (T::product(p[i].hi, q[j].hi), T::product(p[j].hi, q[i].hi));
+        let n = Double::difference(u.hi, v.hi);
+        let cross = p[i].hi * q[j].lo + (p[i].lo * q[j].hi - (p[j].hi * q[i].lo + p[j].lo * q[i].hi));
+        (n.hi, ((u.lo - v.lo) + n.lo) + cross)
+    };
+    let n = [minor(1, 2), minor(2, 0), minor(0, 1)];
+    let main = dot(apex, three(|i| n[i].0));
+    let low = apex[0] * n[0].1 + apex[1] * n[1].1 + apex[2] * n[2].1;
+    Double::sum(main.hi, main.lo + low)
+}
+
+/// |a||b||c| + (a·b)|c| + (b·c)|a| + (c·a)|b|, to first order in the deviations of the norms from 1.
+///
+/// `cosines` are a·b, b·c, c·a and `excesses` |a| − 1, |b| − 1, |c| − 1.
+#[inline(always)]
+pub fn denominator<T: Number>(cosines: [Double<T>; 3], excesses: [T; 3]) -> Double<T> {
+    let ([ab, bc, ca], [a, b, c]) = (cosines, excesses);
+    let s = T::sum(ab.hi, ca.hi);
+    let t = T::sum(s.hi, bc.hi);
+    let w = T::sum(t.hi, T::constant(1.0));
+    let norms = (a + b + c) + (bc.hi * a + ca.hi * b + ab.hi * c);
+    let low = ((ab.lo + ca.lo) + bc.lo) + ((s.lo + t.lo) + w.lo);
+    T::sum(w.hi, low + norms)
+}
+
+/// y z.
+#[inline(always)]
+pub fn times<T: Number>(y: Complex<T>, z: Complex<T>) -> Complex<T> {
+    Complex { re: Double::pair(y.re, z.re, -y.im, z.im), im: Double::pair(y.re, z.im, y.im, z.re) }
+}

@@ -1,0 +1,95 @@
+//! Solid angles and vector moments of loops of directions, to a hundred digits.
+//!
+//! The fan's apex is no vertex but a direction of small integers, every edge gives one factor, and nothing is special:
+//! where the opposite of the apex comes too close to an edge, another apex is taken.
+#![allow(dead_code, reason = "each test binary uses a part of it")]
+
+use glam::DVec3;
+use steradian::glam;
+
+use super::fixed::{Fixed, PLACES, atan2, pi};
+
+pub type Vector = [Fixed; 3];
+
+pub fn dot(a: &Vector, b: &Vector) -> Fixed {
+    let [x, y, z] = [0, 1, 2].map(|i| &a[i] * &b[i]);
+    &(&x + &y) + &z
+}
+
+pub fn cross(a: &Vector, b: &Vector) -> Vector {
+    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| &(&a[i] * &b[j]) - &(&a[j] * &b[i]))
+}
+
+/// The vector of length 1 in the direction of `v`.
+pub fn unit(v: &Vector) -> Vector {
+    let length = dot(v, v).sqrt();
+    [0, 1, 2].map(|i| &v[i] / &length)
+}
+
+/// The doubles taken exactly and normalised.
+pub fn direction(v: DVec3) -> Vector {
+    unit(&v.to_array().map(Fixed::from))
+}
+
+pub fn directions(vertices: &[DVec3]) -> Vec<Vector> {
+    vertices.iter().map(|&v| direction(v)).collect()
+}
+
+/// The edges of the closed loop.
+fn edges(vertices: &[Vector]) -> impl Iterator<Item = (&Vector, &Vector)> {
+    vertices.iter().zip(vertices.iter().cycle().skip(1))
+}
+
+/// D + iN of the triangle, whose argument is half its signed solid angle.
+fn factor(apex: &Vector, a: &Vector, b: &Vector) -> (Fixed, Fixed) {
+    let re = &(&Fixed::from(1) + &dot(apex, a)) + &(&dot(a, b) + &dot(b, apex));
+    (re, dot(&cross(apex, a), b))
+}
+
+/// Half of the signed solid angle on the left of the loop, in (−π, π].
+pub fn half_angle(vertices: &[Vector]) -> Fixed {
+    const APEXES: [[i32; 3]; 4] = [[3, -5, 7], [-11, 2, 5], [4, 9, -6], [-5, -7, -3]];
+    let product = APEXES.iter().find_map(|apex| {
+        let apex = unit(&apex.map(Fixed::from));
+        edges(vertices).try_fold((Fixed::from(1), Fixed::default()), |(re, im), (a, b)| {
+            let (x, y) = factor(&apex, a, b);
+            // What is left of the fraction after a loss of 100 bits is enough.
+            let clear = x.0.bits().max(y.0.bits()) + 100 > PLACES;
+            let (re, im) = (&(&re * &x) - &(&im * &y), &(&re * &y) + &(&im * &x));
+            let by = PLACES as i64 - re.0.bits().max(im.0.bits()) as i64;
+            clear.then(|| (re.shifted(by), im.shifted(by)))
+        })
+    });
+    let (re, im) = product.expect("an apex whose opposite is on no edge");
+    // What is below 2⁻³⁰⁰ is the noise of an exact 0 or an exact half turn.
+    atan2(&if im.0.bits() + 300 < PLACES { Fixed::default() } else { im }, &re)
+}
+
+/// The integral of the winding number that is 0 at the direction opposite to `apex`: the sum of the fan's triangles.
+pub fn winding(vertices: &[Vector], apex: &Vector) -> Fixed {
+    edges(vertices).fold(Fixed::default(), |sum, (a, b)| {
+        let (re, im) = factor(apex, a, b);
+        &sum + &atan2(&im, &re).shifted(1)
+    })
+}
+
+/// Signed solid angle in (−2π, 2π], and the same angle in [0, 4π).
+pub fn solid_angles(vertices: &[Vector]) -> (Fixed, Fixed) {
+    let signed = half_angle(vertices).shifted(1);
+    let unsigned = if signed < Fixed::default() { &signed + &pi().shifted(2) } else { signed.clone() };
+    (signed, unsigned)
+}
+
+/// ½ Σ θₑ n̂ₑ.
+pub fn vector_moment(vertices: &[Vector]) -> Vector {
+    let mut sum = Vector::default();
+    for (a, b) in edges(vertices) {
+        let normal = cross(a, b);
+        let length = dot(&normal, &normal).sqrt();
+        if !length.is_zero() {
+            let angle = atan2(&length, &dot(a, b)).shifted(-1);
+            sum = [0, 1, 2].map(|i| &sum[i] + &(&(&normal[i] * &angle) / &length));
+        }
+    }
+    sum
+}
