@@ -22,6 +22,11 @@ pub const TABLE: &[(&str, &str, f64, &str)] = &[
     ("halves", "*", 1e-14, "searched: random"),
     // A rotation rounds the sites: 1e-16 over the distance of close sites, here at least 1e-4.
     ("rotated", "*", 1e-10, "searched: random"),
+    // Absolute error against the slow cells, of a solid angle and of the length of a moment.
+    ("slow", "*", 2.0 * SOLID_ANGLE_ERROR, "three components, and the moments of the slow cells"),
+    ("slow", "narrow", 2.0 * SOLID_ANGLE_ERROR, "searched: random"),
+    // The slow cells themselves, relative, against 512 bits.
+    ("slow cells", "*", 4e-15, "searched: oracle"),
     // Sums, beside `validate`: absolute, of up to 2000 cells.
     ("sum", "*", 1e-13, "searched: random"),
 ];
