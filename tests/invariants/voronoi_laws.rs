@@ -59,7 +59,20 @@ pub fn halves(sites: &[DVec3], pole: DVec3) {
     }
 }
 
-/// Measures are those of the slow cells; narrow cells have their solid angle to the same bound relative.
+/// The least sine of a corner of a cell.
+fn sharpest(diagram: &Diagram, sites: &[DVec3], pole: Option<DVec3>, index: usize) -> f64 {
+    let neighbors = diagram.cell(index).neighbors();
+    let normal = |&id: &u32| match pole {
+        Some(pole) if id == voronoi::HORIZON => pole.normalize(),
+        _ => cells::normal(sites[index], sites[id as usize]),
+    };
+    let normals: Vec<DVec3> = neighbors.iter().map(normal).collect();
+    let sines = (0..normals.len()).map(|k| normals[k].cross(normals[(k + 1) % normals.len()]).length());
+    sines.fold(1.0, f64::min)
+}
+
+/// Measures are those of the slow cells; narrow cells have their solid angle to the same bound relative, unless a corner is
+/// so sharp that thirty digits do not tell where it is.
 pub fn slow(sites: &[DVec3], pole: Option<DVec3>) {
     let got = diagram(sites, pole);
     for (i, want) in cells::cells(sites, pole).into_iter().enumerate() {
@@ -67,7 +80,8 @@ pub fn slow(sites: &[DVec3], pole: Option<DVec3>) {
         assert_close("slow", (solid_angle, moment), want, sites);
         let corners = got.cell(i).vertices();
         let width = corners.iter().fold(0.0, |width: f64, corner| width.max(corner.distance(corners[0])));
-        if corners.len() > 2 && width < bound("narrow", "*") {
+        let judged = want.0 > bound("judged", "*") && sharpest(&got, sites, pole, i) > bound("sharpest", "*");
+        if corners.len() > 2 && width < bound("narrow", "*") && judged {
             let (error, allowed) = ((solid_angle / want.0 - 1.0).abs(), bound("slow", "narrow"));
             assert!(
                 error <= allowed,
@@ -78,9 +92,19 @@ pub fn slow(sites: &[DVec3], pole: Option<DVec3>) {
     }
 }
 
-/// No site is inside the circle through the three sites of any corner, and each corner is in the middle of its circle.
+/// No site is inside the circle through the three sites of any corner.
+///
+/// Sites of components below 2⁻¹⁰²² of the largest one are left out: a diagram rounds these, as documented.
 pub fn empty_circles(sites: &[DVec3]) {
-    let whole = diagram(sites, None);
+    let is_exact = |v: &DVec3| {
+        let least = v.abs().max_element() * f64::MIN_POSITIVE;
+        v.to_array().iter().all(|&x| x == 0.0 || x.abs() >= least)
+    };
+    let sites: Vec<DVec3> = sites.iter().copied().filter(is_exact).collect();
+    if sites.is_empty() {
+        return;
+    }
+    let whole = diagram(&sites, None);
     for cell in whole.cells() {
         let neighbors = cell.neighbors();
         for k in 0..cell.vertices().len() {

@@ -125,6 +125,11 @@ fn triangle(a: Vector, b: Vector, c: Vector) -> f64 {
     2.0 * f64::atan2(a.dot((b - a).cross(c - a)).hi(), (one + a.dot(b) + b.dot(c) + c.dot(a)).hi())
 }
 
+/// Unit normal of the bisector of two directions, towards `a`; zero if they are one.
+pub fn normal(a: DVec3, b: DVec3) -> DVec3 {
+    bisector(a, b).map_or(DVec3::ZERO, Vector::hi)
+}
+
 /// Unit normal of the bisector, towards `a`; none if both have the same direction.
 ///
 /// With u and v the unit vectors, u − v = (v × u) × (u + v) / (1 + u·v), and the cross product of doubles loses nothing.
