@@ -1,6 +1,6 @@
 //! Tolerances of the tests of `voronoi`.
 
-use steradian::voronoi::SOLID_ANGLE_ERROR;
+use steradian::voronoi::{CORNER_ERROR, SOLID_ANGLE_ERROR};
 
 /// (function, regime, bound, kind of evidence); `regime` is the name of a case of the oracle, a kind of input, or `*`.
 pub const TABLE: &[(&str, &str, f64, &str)] = &[
@@ -15,6 +15,8 @@ pub const TABLE: &[(&str, &str, f64, &str)] = &[
     ("polygon", "vector_moment", 4e-15, "searched: random"),
     // x·(u − v) where u is the nearest site to the query x, or x a point of the cell of u.
     ("nearest", "*", 1e-15, "two roundings of a dot product"),
+    // x·(u − v) for a corner x of the cell of u, and any other site v.
+    ("corner", "*", CORNER_ERROR, "as documented"),
     // det(a, b, x) for corners a, b of an edge and x in the cell.
     ("inside", "*", 1e-14, "corners right to 64 u, twice"),
     // Absolute change of solid angles and vector moments under operations that change nothing.
