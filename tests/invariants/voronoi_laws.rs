@@ -59,6 +59,12 @@ pub fn halves(sites: &[DVec3], pole: DVec3) {
     }
 }
 
+/// The sites that have no component below `least` of their largest one, other than zero.
+fn moderate(sites: &[DVec3], least: f64) -> Vec<DVec3> {
+    let is_moderate = |v: &DVec3| v.to_array().iter().all(|&x| x == 0.0 || x.abs() >= v.abs().max_element() * least);
+    sites.iter().copied().filter(is_moderate).collect()
+}
+
 /// The least sine of a corner of a cell.
 fn sharpest(diagram: &Diagram, sites: &[DVec3], pole: Option<DVec3>, index: usize) -> f64 {
     let neighbors = diagram.cell(index).neighbors();
@@ -73,7 +79,13 @@ fn sharpest(diagram: &Diagram, sites: &[DVec3], pole: Option<DVec3>, index: usiz
 
 /// Measures are those of the slow cells; narrow cells have their solid angle to the same bound relative, unless a corner is
 /// so sharp that thirty digits do not tell where it is.
+///
+/// Sites of components below 10⁻¹⁰⁰ of the largest one are left out, and so are such poles.
 pub fn slow(sites: &[DVec3], pole: Option<DVec3>) {
+    let (sites, pole) = (&moderate(sites, 1e-100)[..], pole.filter(|&pole| !moderate(&[pole], 1e-100).is_empty()));
+    if sites.is_empty() {
+        return;
+    }
     let got = diagram(sites, pole);
     for (i, want) in cells::cells(sites, pole).into_iter().enumerate() {
         let (solid_angle, moment) = measures(&got, i);
@@ -96,11 +108,7 @@ pub fn slow(sites: &[DVec3], pole: Option<DVec3>) {
 ///
 /// Sites of components below 2⁻¹⁰²² of the largest one are left out: a diagram rounds these, as documented.
 pub fn empty_circles(sites: &[DVec3]) {
-    let is_exact = |v: &DVec3| {
-        let least = v.abs().max_element() * f64::MIN_POSITIVE;
-        v.to_array().iter().all(|&x| x == 0.0 || x.abs() >= least)
-    };
-    let sites: Vec<DVec3> = sites.iter().copied().filter(is_exact).collect();
+    let sites = moderate(sites, f64::MIN_POSITIVE);
     if sites.is_empty() {
         return;
     }

@@ -39,10 +39,11 @@ pub fn cell(site: DVec3, others: &[DVec3], pole: Option<DVec3>) -> (f64, DVec3) 
         return (0.0, DVec3::ZERO);
     }
     let mut moment = DVec3::ZERO;
+    // ∫ x ds around the cell: its middle, or almost.
     let mut middle = Vector::exactly(DVec3::ZERO);
     for arc in &arcs {
         moment += 0.5 * arc.length() * arc.normal.hi();
-        middle = middle + arc.middle().times(TwoFloat::from(arc.length()));
+        middle = middle + arc.integral();
     }
     if middle.hi() == DVec3::ZERO {
         return (0.0, moment); // single points
@@ -112,10 +113,15 @@ impl Arc {
         2.0 * f64::atan2((to - from).hi().length(), (to + from).hi().length())
     }
 
+    /// ∫ x ds along the arc.
+    fn integral(&self) -> Vector {
+        self.ends.map_or(Vector::exactly(DVec3::ZERO), |(from, to)| (to - from).cross(self.normal))
+    }
+
     /// The sum of two vectors towards the middle, one of which vanishes for a half circle and the other one for a point.
     fn middle(&self) -> Vector {
         let Some((from, to)) = self.ends else { return Vector::exactly(DVec3::ZERO) };
-        ((to - from).cross(self.normal) + from + to).unit()
+        (self.integral() + from + to).unit()
     }
 }
 
