@@ -39,7 +39,7 @@ pub fn cell(site: DVec3, others: &[DVec3], pole: Option<DVec3>) -> (f64, DVec3) 
         return (0.0, DVec3::ZERO);
     }
     let mut moment = DVec3::ZERO;
-    // ∫ x ds around the cell: its middle, or almost.
+    // ∫ x ds around the cell is towards its middle, but vanishes for a hemisphere, where the moment is large.
     let mut middle = Vector::exactly(DVec3::ZERO);
     for arc in &arcs {
         moment += 0.5 * arc.length() * arc.normal.hi();
@@ -48,7 +48,7 @@ pub fn cell(site: DVec3, others: &[DVec3], pole: Option<DVec3>) -> (f64, DVec3) 
     if middle.hi() == DVec3::ZERO {
         return (0.0, moment); // single points
     }
-    let apex = middle.unit();
+    let apex = (middle + Vector::exactly(moment)).unit();
     let halves = |arc: &Arc| {
         let (Some((from, to)), half) = (arc.ends, arc.middle()) else { return 0.0 };
         triangle(apex, from, half) + triangle(apex, half, to)
