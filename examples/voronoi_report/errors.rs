@@ -14,7 +14,7 @@ impl Reference {
         let step = sites.len().div_ceil(most);
         let exact = |i: usize| {
             let others: Vec<DVec3> = diagram.cell(i).neighbors().iter().map(|&j| sites[j as usize]).collect();
-            (i, cells::cell(sites[i], &others, None).0)
+            (i, cells::cell(sites[i], &others, None).solid_angle)
         };
         Self((0..sites.len()).step_by(step).map(exact).collect())
     }

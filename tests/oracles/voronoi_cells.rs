@@ -5,9 +5,10 @@
 //!
 //! # Accuracy
 //!
-//! Normals of bisectors are right to 10⁻²⁹ and ends of arcs to 10⁻²⁹ over the sine between two bisectors, as long as the
-//! components of a site are within 10¹⁰⁰ of each other; measures are then rounded to doubles: solid angles to a few units of
-//! 2⁻⁵³ relative, moments to a few of 2⁻⁵³ times the perimeter. Tested against 512 bits in tests/voronoi_slow.rs.
+//! Normals of bisectors are right to 10⁻³⁰ and ends of arcs to 10⁻³⁰ over the sine between two bisectors, as long as the
+//! components of a site are within 10¹⁰⁰ of each other; each cell tells this error. Measures are then rounded to doubles:
+//! solid angles to a few units of 2⁻⁵³ relative, moments to a few of 2⁻⁵³ times the perimeter. Tested against 512 bits in
+//! tests/voronoi_slow.rs.
 #![allow(dead_code, reason = "each user takes a part of it")]
 
 use core::f64::consts::PI;
@@ -16,32 +17,46 @@ use core::ops::{Add, Neg, Sub};
 use steradian::glam::DVec3;
 use twofloat::TwoFloat;
 
-/// Solid angle and vector moment of each cell, on the hemisphere of `pole` if there is one. Of equal directions, the first
-/// has all.
-pub fn cells(sites: &[DVec3], pole: Option<DVec3>) -> Vec<(f64, DVec3)> {
-    let others = |i: usize| (0..sites.len()).filter(move |&j| j != i).map(|j| sites[j]).collect::<Vec<_>>();
-    let first = |i: usize| sites[..i].iter().all(|&earlier| bisector(sites[i], earlier).is_some());
-    (0..sites.len()).map(|i| if first(i) { cell(sites[i], &others(i), pole) } else { (0.0, DVec3::ZERO) }).collect()
+#[derive(Clone, Copy, Debug)]
+pub struct Cell {
+    pub solid_angle: f64,
+    pub moment: DVec3,
+    /// How far off ends of arcs may be, and with them the measures beside their rounding.
+    pub error: f64,
 }
 
-/// Solid angle and vector moment of the points that are nearer to `site` than to any of `others` and not below the horizon.
-pub fn cell(site: DVec3, others: &[DVec3], pole: Option<DVec3>) -> (f64, DVec3) {
+/// The cell of each site, on the hemisphere of `pole` if there is one. Of equal directions, the first has all.
+pub fn cells(sites: &[DVec3], pole: Option<DVec3>) -> Vec<Cell> {
+    const EMPTY: Cell = Cell { solid_angle: 0.0, moment: DVec3::ZERO, error: 0.0 };
+    let others = |i: usize| (0..sites.len()).filter(move |&j| j != i).map(|j| sites[j]).collect::<Vec<_>>();
+    let first = |i: usize| sites[..i].iter().all(|&earlier| bisector(sites[i], earlier).is_some());
+    (0..sites.len()).map(|i| if first(i) { cell(sites[i], &others(i), pole) } else { EMPTY }).collect()
+}
+
+/// The points that are nearer to `site` than to any of `others` and not below the horizon.
+pub fn cell(site: DVec3, others: &[DVec3], pole: Option<DVec3>) -> Cell {
     let horizon = pole.map(|pole| Vector::exactly(normalised(pole)).unit());
     let normals: Vec<Vector> = others.iter().filter_map(|&other| bisector(site, other)).chain(horizon).collect();
     if normals.is_empty() {
-        return (4.0 * PI, DVec3::ZERO);
+        return Cell { solid_angle: 4.0 * PI, moment: DVec3::ZERO, error: 0.0 };
     }
-    let arcs: Vec<Arc> = (0..normals.len()).filter_map(|j| arc(&normals, j)).collect();
-    if let [Arc { ends: None, normal }] = arcs[..] {
-        return (2.0 * PI, PI * normal.hi());
-    }
+    let mut sine = 1.0;
+    let arcs: Vec<Arc> = (0..normals.len()).filter_map(|j| arc(&normals, j, &mut sine)).collect();
+    let (solid_angle, moment) = measures(&arcs);
+    Cell { solid_angle, moment, error: 1e-30 / sine }
+}
+
+fn measures(arcs: &[Arc]) -> (f64, DVec3) {
     if arcs.is_empty() {
         return (0.0, DVec3::ZERO);
+    }
+    if let [Arc { ends: None, normal }] = arcs[..] {
+        return (2.0 * PI, PI * normal.hi());
     }
     let mut moment = DVec3::ZERO;
     // ∫ x ds around the cell is towards its middle, but vanishes for a hemisphere, where the moment is large.
     let mut middle = Vector::exactly(DVec3::ZERO);
-    for arc in &arcs {
+    for arc in arcs {
         moment += 0.5 * arc.length() * arc.normal.hi();
         middle = middle + arc.integral();
     }
@@ -63,7 +78,8 @@ struct Arc {
 }
 
 /// The part of circle `j` that satisfies all the others: half circles are intersected one after another.
-fn arc(normals: &[Vector], j: usize) -> Option<Arc> {
+/// Lowers `sine` to the least one between two circles.
+fn arc(normals: &[Vector], j: usize, sine: &mut f64) -> Option<Arc> {
     let normal = normals[j];
     let mut ends = None;
     for (k, &other) in normals.iter().enumerate().filter(|&(k, _)| k != j) {
@@ -75,6 +91,7 @@ fn arc(normals: &[Vector], j: usize) -> Option<Arc> {
             }
             continue;
         }
+        *sine = sine.min(cross.hi().length());
         // Where planes are almost parallel the crossing has few digits, but all of it must be on this circle.
         let rough = cross.unit();
         let from = (rough - normal.times(rough.dot(normal))).unit();
