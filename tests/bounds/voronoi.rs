@@ -26,7 +26,7 @@ pub const TABLE: &[(&str, &str, f64, &str)] = &[
     ("rotated", "*", 1e-10, "searched: random"),
     // Absolute error against the slow cells, of a solid angle and of the length of a moment.
     ("slow", "*", 2.0 * SOLID_ANGLE_ERROR, "three components, and the moments of the slow cells"),
-    // Of narrow cells relative, the second one over the square root of the solid angle.
+    // Of narrow cells relative; the second one times the width over the solid angle.
     ("slow", "narrow", 1e-12, "required"),
     ("slow", "corners", 4e-16, "required: corners rounded to doubles"),
     // Cells that are larger than this are measured by the slow cells to their bound relative.

@@ -102,7 +102,7 @@ pub fn slow(sites: &[DVec3], pole: Option<DVec3>) {
         if corners.len() > 2 && width < bound("narrow", "*") && judged {
             let (error, allowed) = (
                 (solid_angle / want.solid_angle - 1.0).abs(),
-                bound("slow", "narrow") + bound("slow", "corners") / want.solid_angle.sqrt(),
+                bound("slow", "narrow") + bound("slow", "corners") * width / want.solid_angle,
             );
             assert!(
                 error <= allowed,
