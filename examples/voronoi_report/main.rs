@@ -63,7 +63,7 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     }
     let installer = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/peers/voronoi.sh");
     Command::new(installer).arg("install").arg(&options.peers).status()?;
-    let folder = programs::Folder(options.peers.clone());
+    let folder = programs::Folder { path: options.peers.clone(), refused: Default::default() };
     let report = measure::report(&folder, options.largest, options.shape, options.rounds.into())?;
     let text = tables::section(&report);
     print!("{text}");

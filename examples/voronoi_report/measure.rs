@@ -49,6 +49,8 @@ pub struct Report {
     pub sizes: Vec<Size>,
     pub shapes: Vec<ShapeResult>,
     pub ratios: Vec<Ratio>,
+    /// What programs said when they refused the sites.
+    pub refused: Vec<String>,
 }
 
 fn least(a: Option<f64>, b: Option<f64>) -> Option<f64> {
@@ -69,7 +71,7 @@ pub fn report(
     shape: usize,
     rounds: usize,
 ) -> std::result::Result<Report, Box<dyn Error>> {
-    let mut report = Report { sizes: Vec::new(), shapes: Vec::new(), ratios: Vec::new() };
+    let mut report = Report { sizes: Vec::new(), shapes: Vec::new(), ratios: Vec::new(), refused: Vec::new() };
     let mut n = 100;
     while n <= largest {
         size(folder, n, rounds, &mut report)?;
@@ -79,6 +81,7 @@ pub fn report(
     for shape_kind in shapes::HARD {
         report.shapes.push(hard(folder, shape_kind, shape, rounds)?);
     }
+    report.refused = folder.refused.take().into_iter().collect();
     Ok(report)
 }
 

@@ -2,6 +2,8 @@
 //! on the last line CPU seconds of the triangulation, of everything, and the peak in kB, a dash where there is none.
 
 use std::{
+    cell::RefCell,
+    collections::BTreeSet,
     error::Error,
     fs,
     path::{Path, PathBuf},
@@ -28,17 +30,21 @@ pub struct Run {
     pub areas: Option<Vec<f64>>,
 }
 
-pub struct Folder(pub PathBuf);
+/// Where the programs are, and what they refused.
+pub struct Folder {
+    pub path: PathBuf,
+    pub refused: RefCell<BTreeSet<String>>,
+}
 
 impl Folder {
     pub fn write(&self, sites: &[DVec3]) -> Result<(), Box<dyn Error>> {
         let bytes: Vec<u8> = sites.iter().flat_map(|v| v.to_array()).flat_map(f64::to_le_bytes).collect();
-        Ok(fs::write(self.0.join("sites"), bytes)?)
+        Ok(fs::write(self.path.join("sites"), bytes)?)
     }
 
     /// Runs program number `program` on the sites that were written; `None` if it is not installed or fails.
     pub fn run(&self, program: usize, repeat: usize, hemisphere: bool) -> Result<Option<Run>, Box<dyn Error>> {
-        let (sites, areas) = (self.0.join("sites"), self.0.join("areas"));
+        let (sites, areas) = (self.path.join("sites"), self.path.join("areas"));
         _ = fs::remove_file(&areas);
         let mut command = if program == 0 {
             let mut own = Command::new(std::env::current_exe()?);
@@ -46,14 +52,16 @@ impl Folder {
             own
         } else {
             let mut peer = Command::new(concat!(env!("CARGO_MANIFEST_DIR"), "/benches/peers/voronoi.sh"));
-            peer.arg("run").arg(&self.0).arg(["", "cgal", "scipy", "stripy", "d3"][program]);
+            peer.arg("run").arg(&self.path).arg(["", "cgal", "scipy", "stripy", "d3"][program]);
             peer
         };
         let output = command.arg(&sites).arg(&areas).arg(repeat.to_string()).output()?;
         if !output.status.success() {
             if output.status.code() != Some(3) {
                 let message = String::from_utf8_lossy(&output.stderr);
-                eprintln!("{} failed: {}", PROGRAMS[program], message.lines().last().unwrap_or_default());
+                let message = format!("{}: {}", PROGRAMS[program], message.lines().last().unwrap_or_default());
+                eprintln!("{message}");
+                self.refused.borrow_mut().insert(message);
             }
             return Ok(None);
         }

@@ -44,6 +44,9 @@ pub fn section(report: &Report) -> String {
         }
         format!("{} / {}", cell(result.build, scale), cell(result.total, scale))
     });
+    for message in &report.refused {
+        out.push_str(&format!("\nSites refused by {message}\n"));
+    }
     out.push_str("\n![ns a site against the number of sites](figures/voronoi_time.svg)\n");
     out.push_str(
         "\nPeak memory of the process beyond that for 100 sites, in bytes a site, the sites themselves included:\n",
