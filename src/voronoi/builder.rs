@@ -43,6 +43,8 @@ pub struct Builder {
     /// A facet of each site, and the index of the site in it.
     corner_of: Vec<u32>,
     around: Vec<u32>,
+    /// The sites along the curve.
+    along: Vec<u32>,
     /// The corners of facets, and of each site their classes and what it gathers of its edges.
     facet_corners: Vec<FacetCorner>,
     classes: Vec<Class>,
@@ -149,8 +151,10 @@ impl Builder {
             Shape::Solid => {
                 self.set_corners(pole.as_ref());
                 self.add_edges();
-                for site in 0..self.rays.len() as u32 {
-                    self.add_hull_cell(site, pole.as_ref());
+                // Sites of early rounds are far from each other: cells go with all their neighbours.
+                order::merge_rounds(&self.keys, &mut self.along);
+                for k in 0..self.along.len() {
+                    self.add_hull_cell(self.along[k], pole.as_ref());
                 }
             }
         }
