@@ -127,6 +127,19 @@ fn the_lowest_index_owns_a_direction() {
 }
 
 #[test]
+fn an_owner_keeps_its_cell_whichever_of_its_direction_the_build_meets_first() {
+    let mut rng = seeds::rng(6);
+    for _ in 0..20 {
+        let first: Vec<DVec3> = (0..50).map(|_| sites::direction(&mut rng)).collect();
+        let twice: Vec<DVec3> = first.iter().chain(&first).enumerate().map(|(i, &v)| v * [1.0, 0.5][i % 2]).collect();
+        let diagram = sphere(&twice);
+        assert_eq!(diagram.validate(), Ok(()));
+        assert!(diagram.cells().all(|cell| cell.owner() == cell.site() % 50));
+        assert_eq!(diagram.solid_angles()[50..], [0.0; 50]);
+    }
+}
+
+#[test]
 fn sites_one_ulp_apart_are_two() {
     let close = DVec3::new(1.0, 1.0, 1.0 + f64::EPSILON);
     let diagram = sphere(&[DVec3::ONE, close]);
