@@ -71,7 +71,9 @@ def write(target, files):
 for target in ["voronoi_structured", "voronoi_slow", "voronoi_symmetry"]:
     write(target, shapes())
 write("voronoi_circles", [(name, variant(1, 2) + data) for name, data in shapes()])
+DUPLICATE_MET_FIRST = [(2.0**-16, 5e-324, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 1e-310), (0.0, 1.0, 0.0), (1e-314, 0.0, 0.0)]
 no_pole, up = b"\0" + bytes(24), b"\1" + struct.pack("<3d", 0.0, 0.0, 1.0)
 write("voronoi_raw", [(name, no_pole + sites(points)) for name, points in cases()])
 write("voronoi_raw", [("pole_zero", b"\1" + bytes(24) + sites([(1.0, 0.0, 0.0)])), ("no_sites", up + b"\0")])
+write("voronoi_raw", [("duplicate_met_first", no_pole + sites(DUPLICATE_MET_FIRST))])
 write("voronoi_raw", [(f"dome_{name}", up + sites(points)) for name, points in cases() if len(points) <= 6])

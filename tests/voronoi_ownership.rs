@@ -129,13 +129,21 @@ fn the_lowest_index_owns_a_direction() {
 #[test]
 fn an_owner_keeps_its_cell_whichever_of_its_direction_the_build_meets_first() {
     let mut rng = seeds::rng(6);
-    for _ in 0..20 {
-        let first: Vec<DVec3> = (0..50).map(|_| sites::direction(&mut rng)).collect();
-        let twice: Vec<DVec3> = first.iter().chain(&first).enumerate().map(|(i, &v)| v * [1.0, 0.5][i % 2]).collect();
-        let diagram = sphere(&twice);
+    let first: Vec<DVec3> = (0..1000).map(|_| sites::direction(&mut rng)).collect();
+    let twice: Vec<DVec3> = first.iter().chain(&first).enumerate().map(|(i, &v)| v * [1.0, 0.5][i % 2]).collect();
+    let close = [
+        DVec3::new(2f64.powi(-16), 5e-324, 0.0),
+        DVec3::X,
+        DVec3::new(0.0, 1.0, 1e-310),
+        DVec3::Y,
+        DVec3::new(1e-314, 0.0, 0.0),
+    ];
+    for (sites, owners) in [(&twice[..], (0..2000).map(|i| i % 1000).collect()), (&close[..], vec![0, 1, 2, 3, 1])] {
+        let diagram = sphere(sites);
         assert_eq!(diagram.validate(), Ok(()));
-        assert!(diagram.cells().all(|cell| cell.owner() == cell.site() % 50));
-        assert_eq!(diagram.solid_angles()[50..], [0.0; 50]);
+        for (cell, owner) in diagram.cells().zip(owners) {
+            assert_eq!((cell.owner(), cell.solid_angle() > 0.0), (owner, owner == cell.site()));
+        }
     }
 }
 
