@@ -83,6 +83,18 @@ fn two_thousand_cells_partition() {
 }
 
 #[test]
+fn thousands_of_sites_in_hard_places_are_valid() {
+    use sites::Kind::{Cap, Clusters, GreatCircle, Lattice, Perturbed, Repeated, Rings, SmallCircle, Uniform};
+    let mut rng = seeds::rng(3);
+    for kind in [Uniform, Lattice, Rings, GreatCircle, SmallCircle, Perturbed, Cap(3), Clusters(6), Repeated] {
+        let mut sites = sites::make(kind, 3000, &mut rng);
+        sites.push(DVec3::Z);
+        invariants::check(&sites, None);
+        invariants::check(&sites, Some(DVec3::new(0.0, 0.6, 0.8)));
+    }
+}
+
+#[test]
 fn one_cell_is_everything() {
     let sphere = voronoi::sphere(&[DVec3::X]).expect("a site");
     assert_eq!((sphere.solid_angles(), sphere.vector_moments()), ([2.0 * TAU].as_slice(), [DVec3::ZERO].as_slice()));

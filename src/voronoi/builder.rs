@@ -128,6 +128,12 @@ impl Builder {
             let owner = self.owners[self.hull.same[k] as usize];
             self.diagram.push_site(order::index(self.keys[k]), ray.unit, owner);
         }
+        // The hull has one site of each direction, which need not be the first: they change places.
+        for (k, &key) in self.keys.iter().enumerate() {
+            if self.hull.same[k] == k as u32 {
+                self.diagram.swap_sites(order::index(key), self.owners[k] as usize);
+            }
+        }
         self.sums.clear();
         self.sums.resize(self.rays.len(), Sum::default());
         match shape {
@@ -285,11 +291,8 @@ impl Builder {
             let (start, end) = (&facet_corners[before], &facet_corners[after]);
             let owner = owners[neighbor as usize];
             match (start.class, end.class) {
-                (ABOVE, ABOVE) => {
-                    if has_length {
-                        diagram.push_edge(owner, start.unit);
-                    }
-                }
+                (ABOVE, ABOVE) if has_length => diagram.push_edge(owner, start.unit),
+                (ABOVE, ABOVE) => {}
                 (ABOVE, _) => {
                     let exit = crossing(start.unit, end.unit, pole.unit);
                     diagram.push_edge(owner, start.unit);

@@ -99,6 +99,11 @@ impl Diagram {
         self.records.push(Record { direction, owner, ..Record::default() });
     }
 
+    /// Exchanges the records of two sites with the same direction.
+    pub(super) fn swap_sites(&mut self, first: usize, second: usize) {
+        self.places.swap(first, second);
+    }
+
     /// Sets all solid angles and vector moments, of which `measure` gives those of a record.
     pub(super) fn set_measures(&mut self, measure: impl Fn(usize) -> (f64, DVec3)) {
         self.solid_angles.clear();

@@ -43,8 +43,13 @@
 //! # Implementation
 //!
 //! The corners are the facets of the convex hull of the unit vectors, built site by site in a biased randomised order along
-//! a space-filling curve: expected time grows as n log n. Integers decide where doubles and twofold numbers cannot tell.
-//! Sites on one circle are sorted around it.
+//! a space-filling curve: expected time grows as n log n. Doubles with a bound of their error decide, then twofold numbers,
+//! then integers. Sites on one circle are sorted around it. Cells of well-shaped corners within 53° of their site are
+//! measured edge by edge, both cells of an edge at once, and by one arctangent; all others corner by corner, in twofold
+//! numbers where it takes them.
+//!
+//! About 0.25 µs a site for some hundreds of sites and 0.7 µs for a million, measures included; twice that on lattices,
+//! whose ties integers decide. Sites almost on one circle have sharp corners only, which cost 5 to 8 µs each.
 //!
 //! # Not here
 //!
