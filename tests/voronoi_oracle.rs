@@ -2,60 +2,15 @@
 #![cfg(feature = "sphere")]
 
 use bounds::voronoi::{MERGED_BY_THE_ORACLE, bound};
-use serde::Deserialize;
+use oracle::{Case, Invalid, oracle, parse, vectors};
 use steradian::glam::DVec3;
 use steradian::voronoi::{self, Diagram, VoronoiError};
 
 mod bounds;
 #[path = "invariants/voronoi.rs"]
 mod invariants;
-
-#[derive(Deserialize)]
-struct Oracle {
-    cases: Vec<Case>,
-    invalid: Vec<Invalid>,
-}
-
-#[derive(Deserialize)]
-struct Case {
-    name: String,
-    sites: Vec<[String; 3]>,
-    rep: Vec<String>,
-    area: Vec<String>,
-    area_hemi: Vec<String>,
-    edges: Vec<[String; 2]>,
-}
-
-#[derive(Deserialize)]
-struct Invalid {
-    name: String,
-    sites: Vec<[String; 3]>,
-}
-
-/// The oracle with every number as a string, for its doubles must be read correctly rounded.
-fn oracle() -> Oracle {
-    let mut json = String::new();
-    let (mut in_string, mut in_number, mut escaped) = (false, false, false);
-    for c in include_str!("oracles/voronoi.json").chars() {
-        let numeric = !in_string && (c.is_ascii_digit() || c == '-' || in_number && "+.eE".contains(c));
-        if numeric != in_number {
-            json.push('"');
-            in_number = numeric;
-        }
-        in_string ^= c == '"' && !escaped;
-        escaped = c == '\\' && !escaped;
-        json.push(c);
-    }
-    serde_json::from_str(&json).expect("tests/oracles/voronoi.json has the fields of `Oracle`")
-}
-
-fn parse<T: std::str::FromStr>(text: &str) -> T {
-    text.parse().unwrap_or_else(|_| panic!("a number was expected in the oracle, got {text:?}"))
-}
-
-fn vectors(sites: &[[String; 3]]) -> Vec<DVec3> {
-    sites.iter().map(|[x, y, z]| DVec3::new(parse(x), parse(y), parse(z))).collect()
-}
+#[path = "oracles/voronoi_cases.rs"]
+mod oracle;
 
 impl Case {
     /// Calls `check` with (what, diagram, solid angle by site) for the sphere and the upper hemisphere.

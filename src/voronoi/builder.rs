@@ -4,9 +4,13 @@ use glam::DVec3;
 
 use super::HORIZON;
 use super::clip::{Cell, View};
+use super::corner::{ABOVE, BELOW, Class, FacetCorner, SPECIAL};
 use super::diagram::Diagram;
 use super::error::VoronoiError;
+use super::hull::{Hull, Shape};
 use super::measure::{Corner, measure};
+use super::order;
+use super::ordinary::{Side, Sum};
 use super::ray::Ray;
 
 /// Most sites of a diagram, whose cells have fewer than 6 edges a site and 2 on the horizon: offsets are `u32`.
@@ -30,9 +34,21 @@ const MOST_SITES: usize = (u32::MAX / 16) as usize;
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Builder {
+    /// The order of the sites in everything else: an index is in the lower bits.
+    keys: Vec<u64>,
     rays: Vec<Ray>,
-    cosines: Vec<f64>,
-    ring: Vec<u32>,
+    hull: Hull,
+    /// The lowest index of each direction.
+    owners: Vec<u32>,
+    /// A facet of each site, and the index of the site in it.
+    corner_of: Vec<u32>,
+    around: Vec<u32>,
+    /// The sites along the curve.
+    along: Vec<u32>,
+    /// The corners of facets, and of each site their classes and what it gathers of its edges.
+    facet_corners: Vec<FacetCorner>,
+    classes: Vec<Class>,
+    sums: Vec<Sum>,
     cell: Cell,
     corners: Vec<Corner>,
     diagram: Diagram,
@@ -91,75 +107,270 @@ impl Builder {
                 return Err(VoronoiError::ZeroSite { index });
             }
         }
+        order::sort(sites, &mut self.keys);
         self.rays.clear();
-        self.rays.extend(sites.iter().map(|&site| Ray::new(site)));
+        // Far apart in memory: many loads at a time, before the work on each.
+        let mut batch = [DVec3::ZERO; BATCH];
+        for keys in self.keys.chunks(BATCH) {
+            for (site, &key) in batch.iter_mut().zip(keys) {
+                *site = sites[order::index(key)];
+            }
+            self.rays.extend(batch[..keys.len()].iter().map(|&site| Ray::new(site)));
+        }
         Ok(())
     }
 
     fn build(&mut self, pole: Option<Ray>) {
-        let Self { rays, cosines, ring, cell, corners, diagram } = self;
-        ring.resize(rays.len(), 0);
-        diagram.reset(pole.map(|pole| pole.unit));
-        for (i, site) in rays.iter().enumerate() {
-            let view = View { index: i, site, rays, pole: pole.as_ref() };
-            cell.reset();
-            cosines.clear();
-            cosines.extend(rays.iter().map(|ray| ray.unit.dot(site.unit)));
-            let owner = carve(&view, cell, cosines, ring);
-            if owner != i {
-                cell.empty = true;
-            }
-            let (solid_angle, vector_moment) = measure(&view, cell, corners);
-            diagram.push(site.unit, owner, solid_angle, vector_moment);
-            if !cell.empty {
-                diagram.push_outline(cell.edges.iter().map(|edge| edge.id), corners.iter().map(|corner| corner.unit));
+        let shape = self.hull.build(&self.rays);
+        self.name_owners();
+        self.diagram.reset(pole.map(|pole| pole.unit), self.rays.len());
+        for (k, ray) in self.rays.iter().enumerate() {
+            let owner = self.owners[self.hull.same[k] as usize];
+            self.diagram.push_site(order::index(self.keys[k]), ray.unit, owner);
+        }
+        // The hull has one site of each direction, which need not be the first: they change places.
+        for (k, &key) in self.keys.iter().enumerate() {
+            if self.hull.same[k] == k as u32 {
+                self.diagram.swap_sites(order::index(key), self.owners[k] as usize);
             }
         }
-        diagram.name_owners();
-    }
-}
-
-/// Cuts `cell` with the horizon and the bisectors of all other sites; returns the lowest index with its direction.
-///
-/// Near sites first, in rings each four times as large as the one before, until no site is left that reaches the cell.
-fn carve(view: &View<'_>, cell: &mut Cell, cosines: &[f64], ring: &mut [u32]) -> usize {
-    if view.pole.is_some() {
-        cell.cut(view, HORIZON);
-    }
-    let mut owner = view.index;
-    let mut outer = f64::INFINITY;
-    let mut width = FIRST_RING / cosines.len() as f64;
-    while outer >= cell.reach() && !cell.empty {
-        let inner = if width < 2.0 { 1.0 - width } else { f64::NEG_INFINITY };
-        for &j in within(cosines, inner.max(cell.reach()), outer, ring) {
-            let (index, cosine) = (j as usize, cosines[j as usize]);
-            if cosine > NEAR && view.site.is_along(&view.rays[index]) {
-                owner = owner.min(index);
-            } else if cosine >= cell.reach() && !cell.empty {
-                cell.cut(view, j);
+        self.sums.clear();
+        self.sums.resize(self.rays.len(), Sum::default());
+        match shape {
+            Shape::Point => {
+                self.around.clear();
+                self.add_cell(0, pole.as_ref());
+            }
+            Shape::Circle => {
+                let count = self.hull.ring.len();
+                for k in 0..count {
+                    let ring = &self.hull.ring;
+                    let (before, after) = (ring[if k == 0 { count - 1 } else { k - 1 }], ring[(k + 1) % count]);
+                    self.around.clear();
+                    self.around.push(before);
+                    if count > 2 {
+                        self.around.push(after);
+                    }
+                    self.add_cell(self.hull.ring[k], pole.as_ref());
+                }
+            }
+            Shape::Solid => {
+                self.set_corners(pole.as_ref());
+                self.add_edges();
+                // Sites of early rounds are far from each other: cells go with all their neighbours.
+                order::merge_rounds(&self.keys, &mut self.along);
+                for k in 0..self.along.len() {
+                    self.add_hull_cell(self.along[k], pole.as_ref());
+                }
             }
         }
-        outer = inner;
-        width *= 4.0;
+        let Self { diagram, hull, sums, .. } = self;
+        for (site, &same) in hull.same.iter().enumerate() {
+            if same != site as u32 {
+                sums[site] = Sum::finished(0.0, DVec3::ZERO);
+            }
+        }
+        diagram.set_measures(|place| sums[place].measure());
     }
-    owner
+
+    fn add_hull_cell(&mut self, site: u32, pole: Option<&Ray>) {
+        let class = self.classes[site as usize];
+        match class {
+            ABOVE => self.add_ordinary_cell(site),
+            NONE => {}
+            BELOW => self.sums[site as usize] = Sum::finished(0.0, DVec3::ZERO),
+            ABOVE_AND_BELOW if self.add_clipped_cell(site, pole) => {}
+            _ => {
+                self.walk_around(site);
+                self.add_cell(site, pole);
+            }
+        }
+    }
+
+    fn name_owners(&mut self) {
+        self.owners.clear();
+        self.owners.resize(self.rays.len(), u32::MAX);
+        for (&key, &same) in self.keys.iter().zip(&self.hull.same) {
+            let owner = &mut self.owners[same as usize];
+            *owner = (*owner).min(order::index(key) as u32);
+        }
+    }
+
+    fn set_corners(&mut self, pole: Option<&Ray>) {
+        let Self { hull, rays, corner_of, facet_corners, classes, .. } = self;
+        corner_of.clear();
+        corner_of.resize(rays.len(), u32::MAX);
+        classes.clear();
+        classes.resize(rays.len(), 0);
+        facet_corners.clear();
+        let pole = pole.map(|pole| pole.unit);
+        for (f, facet) in hull.facets.iter_mut().enumerate() {
+            facet.mark = 0;
+            let [a, b, c] = facet.sites.map(|site| &rays[site as usize]);
+            let corner = FacetCorner::new(a, b, c, pole);
+            for (k, &site) in facet.sites.iter().enumerate() {
+                corner_of[site as usize] = (4 * f + k) as u32;
+                classes[site as usize] |= corner.class;
+            }
+            facet_corners.push(corner);
+        }
+    }
+
+    /// Finds the edges that have no length, and adds the others between ordinary corners to both cells.
+    fn add_edges(&mut self) {
+        let Self { hull, rays, facet_corners, sums, .. } = self;
+        for f in 0..hull.facets.len() {
+            let facet = hull.facets[f];
+            let start = facet_corners[f];
+            for k in 0..3 {
+                let (g, h) = ((facet.across[k] >> 2) as usize, facet.across[k] & 3);
+                if g < f {
+                    continue;
+                }
+                let end = &facet_corners[g];
+                let (left, right) = (facet.sites[(k + 2) % 3] as usize, facet.sites[(k + 1) % 3] as usize);
+                let mut has_length = false;
+                if (start.class | end.class) & SPECIAL == 0 {
+                    let site = &rays[left];
+                    let (d, e) = (start.offset(site), end.offset(site));
+                    has_length = (e - d).length_squared() > SURE_LENGTH * SURE_LENGTH * d.length_squared();
+                    if start.class & end.class == ABOVE {
+                        let side = Side::new(site.unit, start.unit, d, e);
+                        sums[left].add(&side);
+                        sums[right].add_reverse(&side, site.offset(&rays[right]));
+                    }
+                }
+                if !has_length && hull.is_flat(rays, (4 * f + k) as u32) {
+                    hull.facets[f].mark |= 1 << k;
+                    hull.facets[g].mark |= 1 << h;
+                }
+            }
+        }
+    }
+
+    /// Calls `visit` with (edge has a length, facet before, facet after, neighbour) for the edges of the cell of `site`.
+    #[inline(always)]
+    fn each_edge(hull: &Hull, start: u32, mut visit: impl FnMut(bool, usize, usize, u32)) {
+        let mut corner = start;
+        loop {
+            // The site after the next one is across the edge to the next corner.
+            let facet = &hull.facets[(corner >> 2) as usize];
+            let k = corner & 3;
+            let (first, second) = NEXT[k as usize];
+            let across = facet.across[first as usize];
+            let before = (corner >> 2) as usize;
+            corner = if across & 3 == 2 { across - 2 } else { across + 1 };
+            visit(facet.mark >> first & 1 == 0, before, (across >> 2) as usize, facet.sites[second as usize]);
+            if corner == start {
+                return;
+            }
+        }
+    }
+
+    fn add_ordinary_cell(&mut self, site: u32) {
+        let Self { hull, owners, corner_of, facet_corners, diagram, sums, .. } = self;
+        let sum = &mut sums[site as usize];
+        *sum = Sum::finished(sum.solid_angle(), sum.vector_moment());
+        let outline = diagram.start_outline();
+        Self::each_edge(hull, corner_of[site as usize], |has_length, before, _, neighbor| {
+            if has_length {
+                diagram.push_edge(owners[neighbor as usize], facet_corners[before].unit);
+            }
+        });
+        diagram.end_outline(site as usize, outline);
+    }
+
+    /// Adds a cell of ordinary corners on both sides of the horizon, unless it is too narrow.
+    fn add_clipped_cell(&mut self, site: u32, pole: Option<&Ray>) -> bool {
+        let Self { hull, rays, owners, corner_of, facet_corners, diagram, sums, .. } = self;
+        let (Some(pole), ray) = (pole, &rays[site as usize]) else { return false };
+        let mut sum = sums[site as usize];
+        let outline = diagram.start_outline();
+        let mut gap = [DVec3::ZERO; 2];
+        Self::each_edge(hull, corner_of[site as usize], |has_length, before, after, neighbor| {
+            let (start, end) = (&facet_corners[before], &facet_corners[after]);
+            let owner = owners[neighbor as usize];
+            match (start.class, end.class) {
+                (ABOVE, ABOVE) if has_length => diagram.push_edge(owner, start.unit),
+                (ABOVE, ABOVE) => {}
+                (ABOVE, _) => {
+                    let exit = crossing(start.unit, end.unit, pole.unit);
+                    diagram.push_edge(owner, start.unit);
+                    diagram.push_edge(HORIZON, exit);
+                    gap[0] = exit;
+                    sum.add(&Side::new(ray.unit, start.unit, start.offset(ray), exit - ray.unit));
+                }
+                (_, ABOVE) => {
+                    let entry = crossing(end.unit, start.unit, pole.unit);
+                    diagram.push_edge(owner, entry);
+                    gap[1] = entry;
+                    sum.add(&Side::new(ray.unit, entry, entry - ray.unit, end.offset(ray)));
+                }
+                _ => {}
+            }
+        });
+        let [exit, entry] = gap;
+        sum.add(&Side::new(ray.unit, exit, exit - ray.unit, entry - ray.unit));
+        let solid_angle = sum.solid_angle();
+        if solid_angle < NARROW * NARROW {
+            diagram.drop_outline(outline);
+            return false;
+        }
+        diagram.end_outline(site as usize, outline);
+        sums[site as usize] = Sum::finished(solid_angle, sum.vector_moment());
+        true
+    }
+
+    /// Sets `around` to the neighbours of `site` across edges of positive length.
+    fn walk_around(&mut self, site: u32) {
+        self.around.clear();
+        Self::each_edge(&self.hull, self.corner_of[site as usize], |has_length, _, _, neighbor| {
+            if has_length {
+                self.around.push(neighbor);
+            }
+        });
+    }
+
+    /// Adds the cell of `site` with the neighbours `around`.
+    fn add_cell(&mut self, site: u32, pole: Option<&Ray>) {
+        let Self { rays, owners, cell, corners, diagram, around, sums, .. } = self;
+        let view = View { site: &rays[site as usize], rays, pole };
+        match pole {
+            None => cell.set_outline(&view, around),
+            Some(_) => cell.cut_with_horizon(&view, around),
+        }
+        let (solid_angle, vector_moment) = measure(&view, cell, corners);
+        sums[site as usize] = Sum::finished(solid_angle, vector_moment);
+        if !cell.empty {
+            let name = |id: u32| if id == HORIZON { HORIZON } else { owners[id as usize] };
+            let corners = corners.iter().map(|corner| corner.unit);
+            diagram.push_outline(site as usize, cell.edges.iter().map(|edge| name(edge.id)), corners);
+        }
+    }
 }
 
-/// The indices of the cosines from `inner` to below `outer`, in `ring`; without branches, for they would be random.
-fn within<'a>(cosines: &[f64], inner: f64, outer: f64, ring: &'a mut [u32]) -> &'a [u32] {
-    let mut count = 0;
-    for (j, &cosine) in cosines.iter().enumerate() {
-        ring[count] = j as u32;
-        count += usize::from((cosine >= inner) & (cosine < outer));
-    }
-    &ring[..count]
+/// Where the edge between a corner above and one below meets the horizon.
+fn crossing(above: DVec3, below: DVec3, pole: DVec3) -> DVec3 {
+    let point = above * -below.dot(pole) + below * above.dot(pole);
+    (point - pole * point.dot(pole)).normalize()
 }
 
-/// 1 − cosine of the first ring, times the number of sites: a handful of sites if they are even.
-const FIRST_RING: f64 = 8.0;
+/// Number of sites that are loaded at a time.
+const BATCH: usize = 64;
 
-/// Sites of smaller cosine cannot have the same direction.
-const NEAR: f64 = 1.0 - 1.0 / (1u64 << 40) as f64;
+/// Corners of ordinary facets that are farther apart than this, over their distance from a site, are two.
+const SURE_LENGTH: f64 = 1.0 / (1u64 << 40) as f64;
+
+/// Clipped cells narrower than this need more than doubles on the horizon.
+const NARROW: f64 = 1.0 / 64.0;
+
+/// The two indices after each of a facet's.
+const NEXT: [(u32, u32); 3] = [(1, 2), (2, 0), (0, 1)];
+
+const ABOVE_AND_BELOW: Class = ABOVE | BELOW;
+
+/// Of a site without a cell of its own.
+const NONE: Class = 0;
 
 #[cfg(test)]
 mod tests {
@@ -170,7 +381,7 @@ mod tests {
         fn of<T>(buffer: &Vec<T>) -> (usize, usize) {
             (buffer.as_ptr() as usize, buffer.capacity())
         }
-        [of(&builder.rays), of(&builder.cosines), of(&builder.ring), of(&builder.corners), of(&builder.cell.sides)]
+        [of(&builder.rays), of(&builder.keys), of(&builder.around), of(&builder.corners), of(&builder.cell.sides)]
     }
 
     #[test]

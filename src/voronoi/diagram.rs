@@ -12,15 +12,24 @@ pub const HORIZON: u32 = u32::MAX;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Diagram {
     pole: Option<DVec3>,
-    sites: Vec<DVec3>,
-    owners: Vec<u32>,
     solid_angles: Vec<f64>,
     vector_moments: Vec<DVec3>,
-    /// Cell i has the entries from `neighbor_ends[i − 1]` to `neighbor_ends[i]`, and so on.
-    neighbor_ends: Vec<u32>,
+    /// Where the record of each site is.
+    places: Vec<u32>,
+    records: Vec<Record>,
     neighbors: Vec<u32>,
-    vertex_ends: Vec<u32>,
     vertices: Vec<DVec3>,
+}
+
+/// A site, and where its edges and corners are in the arrays of all.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Record {
+    direction: DVec3,
+    owner: u32,
+    edges: u32,
+    corners: u32,
+    edge_count: u32,
+    corner_count: u32,
 }
 
 /// The cell of a site.
@@ -33,12 +42,12 @@ pub struct Cell<'a> {
 impl Diagram {
     /// Number of sites; each has a cell, if an empty one.
     pub fn len(&self) -> usize {
-        self.sites.len()
+        self.places.len()
     }
 
     /// Whether there is no site: true only of [`Diagram::default`].
     pub fn is_empty(&self) -> bool {
-        self.sites.is_empty()
+        self.places.is_empty()
     }
 
     /// The cell of site `index`.
@@ -71,52 +80,78 @@ impl Diagram {
         self.pole
     }
 
-    /// The directions of the sites, unit vectors.
-    pub(super) fn sites(&self) -> &[DVec3] {
-        &self.sites
+    fn record(&self, index: usize) -> &Record {
+        &self.records[self.places[index] as usize]
     }
 
-    pub(super) fn reset(&mut self, pole: Option<DVec3>) {
+    /// Makes room for the cells of `len` sites, all empty.
+    pub(super) fn reset(&mut self, pole: Option<DVec3>, len: usize) {
         self.pole = pole;
-        self.sites.clear();
-        self.owners.clear();
-        self.solid_angles.clear();
-        self.vector_moments.clear();
-        self.neighbor_ends.clear();
+        self.places.resize(len, 0);
+        self.records.clear();
         self.neighbors.clear();
-        self.vertex_ends.clear();
         self.vertices.clear();
     }
 
-    /// Adds a cell that has no outline yet.
-    pub(super) fn push(&mut self, site: DVec3, owner: usize, solid_angle: f64, vector_moment: DVec3) {
-        self.sites.push(site);
-        self.owners.push(owner as u32);
-        self.solid_angles.push(solid_angle);
-        self.vector_moments.push(vector_moment);
-        self.neighbor_ends.push(self.neighbors.len() as u32);
-        self.vertex_ends.push(self.vertices.len() as u32);
+    /// Adds the record of site `index` after the others.
+    pub(super) fn push_site(&mut self, index: usize, direction: DVec3, owner: u32) {
+        self.places[index] = self.records.len() as u32;
+        self.records.push(Record { direction, owner, ..Record::default() });
     }
 
-    /// Gives the last cell its outline.
-    pub(super) fn push_outline(&mut self, neighbors: impl Iterator<Item = u32>, vertices: impl Iterator<Item = DVec3>) {
+    /// Exchanges the records of two sites with the same direction.
+    pub(super) fn swap_sites(&mut self, first: usize, second: usize) {
+        self.places.swap(first, second);
+    }
+
+    /// Sets all solid angles and vector moments, of which `measure` gives those of a record.
+    pub(super) fn set_measures(&mut self, measure: impl Fn(usize) -> (f64, DVec3)) {
+        self.solid_angles.clear();
+        self.solid_angles.extend(self.places.iter().map(|&place| measure(place as usize).0));
+        self.vector_moments.clear();
+        self.vector_moments.extend(self.places.iter().map(|&place| measure(place as usize).1));
+    }
+
+    /// Where the next outline starts.
+    pub(super) fn start_outline(&self) -> usize {
+        self.neighbors.len()
+    }
+
+    /// Adds an edge and the corner at its start to the outline.
+    #[inline]
+    pub(super) fn push_edge(&mut self, neighbor: u32, corner: DVec3) {
+        self.neighbors.push(neighbor);
+        self.vertices.push(corner);
+    }
+
+    /// Takes back all edges since `start`, each of which came with a corner.
+    pub(super) fn drop_outline(&mut self, start: usize) {
+        let count = self.neighbors.len() - start;
+        self.neighbors.truncate(start);
+        self.vertices.truncate(self.vertices.len() - count);
+    }
+
+    /// Gives the cell of a record all edges since `start`.
+    pub(super) fn end_outline(&mut self, place: usize, start: usize) {
+        let count = self.neighbors.len() - start;
+        let record = &mut self.records[place];
+        (record.edges, record.edge_count) = (start as u32, count as u32);
+        (record.corners, record.corner_count) = ((self.vertices.len() - count) as u32, count as u32);
+    }
+
+    /// Gives the cell of a record its outline, after those of all cells before.
+    pub(super) fn push_outline(
+        &mut self,
+        place: usize,
+        neighbors: impl Iterator<Item = u32>,
+        vertices: impl Iterator<Item = DVec3>,
+    ) {
+        let (edges, corners) = (self.neighbors.len() as u32, self.vertices.len() as u32);
         self.neighbors.extend(neighbors);
         self.vertices.extend(vertices);
-        if let Some(end) = self.neighbor_ends.last_mut() {
-            *end = self.neighbors.len() as u32;
-        }
-        if let Some(end) = self.vertex_ends.last_mut() {
-            *end = self.vertices.len() as u32;
-        }
-    }
-
-    /// Replaces neighbours by the owners of their cells, once all are known.
-    pub(super) fn name_owners(&mut self) {
-        for neighbor in &mut self.neighbors {
-            if *neighbor != HORIZON {
-                *neighbor = self.owners[*neighbor as usize];
-            }
-        }
+        let record = &mut self.records[place];
+        (record.edges, record.edge_count) = (edges, self.neighbors.len() as u32 - edges);
+        (record.corners, record.corner_count) = (corners, self.vertices.len() as u32 - corners);
     }
 }
 
@@ -128,12 +163,12 @@ impl<'a> Cell<'a> {
 
     /// Lowest index of a site with the same direction: the one whose cell is not empty. Mostly `site()` itself.
     pub fn owner(&self) -> usize {
-        self.diagram.owners[self.index] as usize
+        self.diagram.record(self.index).owner as usize
     }
 
     /// Direction of the site, a unit vector.
     pub fn direction(&self) -> DVec3 {
-        self.diagram.sites[self.index]
+        self.diagram.record(self.index).direction
     }
 
     /// Solid angle in steradians, in [0, 4π]; 0 if the cell is empty or another site owns it.
@@ -161,34 +196,29 @@ impl<'a> Cell<'a> {
     ///
     /// [`CORNER_ERROR`](super::CORNER_ERROR).
     pub fn vertices(&self) -> &'a [DVec3] {
-        part(&self.diagram.vertices, &self.diagram.vertex_ends, self.index)
+        let outline = self.diagram.record(self.index);
+        &self.diagram.vertices[outline.corners as usize..][..outline.corner_count as usize]
     }
 
     /// The sites across the edges, in the same order, as owners of their cells; [`HORIZON`] across the horizon.
     ///
     /// A hemisphere has one edge though no corner.
     pub fn neighbors(&self) -> &'a [u32] {
-        part(&self.diagram.neighbors, &self.diagram.neighbor_ends, self.index)
+        let outline = self.diagram.record(self.index);
+        &self.diagram.neighbors[outline.edges as usize..][..outline.edge_count as usize]
     }
-}
-
-fn part<'a, T>(all: &'a [T], ends: &[u32], index: usize) -> &'a [T] {
-    let start = if index == 0 { 0 } else { ends[index - 1] };
-    &all[start as usize..ends[index] as usize]
 }
 
 #[cfg(test)]
 impl Diagram {
     /// Capacities of the buffers, for the test that a warm builder keeps them.
-    pub(super) fn buffers(&self) -> [usize; 8] {
+    pub(super) fn buffers(&self) -> [usize; 6] {
         [
-            self.sites.capacity(),
-            self.owners.capacity(),
             self.solid_angles.capacity(),
             self.vector_moments.capacity(),
-            self.neighbor_ends.capacity(),
+            self.places.capacity(),
+            self.records.capacity(),
             self.neighbors.capacity(),
-            self.vertex_ends.capacity(),
             self.vertices.capacity(),
         ]
     }

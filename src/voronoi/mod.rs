@@ -42,10 +42,14 @@
 //!
 //! # Implementation
 //!
-//! Each cell by itself is cut from the sphere by half-spaces, near sites first, until no site is left that reaches it:
-//! time grows as n², from about 1 µs a site for some hundreds of sites. Integers decide a hundred to ten thousand times more
-//! slowly than doubles: random sites never need them, lattices and circles do at every corner, and a circle of many sites
-//! takes time as n³.
+//! The corners are the facets of the convex hull of the unit vectors, built site by site in a biased randomised order along
+//! a space-filling curve: expected time grows as n log n. Doubles with a bound of their error decide, then twofold numbers,
+//! then integers. Sites on one circle are sorted around it. Cells of well-shaped corners within 53° of their site are
+//! measured edge by edge, both cells of an edge at once, and by one arctangent; all others corner by corner, in twofold
+//! numbers where it takes them.
+//!
+//! About 0.25 µs a site for some hundreds of sites and 0.7 µs for a million, measures included; twice that on lattices,
+//! whose ties integers decide. Sites almost on one circle have sharp corners only, which cost 5 to 8 µs each.
 //!
 //! # Not here
 //!
@@ -54,15 +58,20 @@
 //!
 //! # Source
 //!
-//! Brown (1979), Voronoi diagrams from convex hulls; Sutherland and Hodgman (1974), Reentrant polygon clipping; Girard
+//! Brown (1979), Voronoi diagrams from convex hulls; Amenta, Choi and Rote (2003), Incremental constructions con BRIO; Sutherland and Hodgman (1974), Reentrant polygon clipping; Girard
 //! (1626) and Lambert (1760) for the measures.
 
 mod builder;
 mod clip;
+mod corner;
 mod diagram;
 mod error;
 mod exact;
+mod hull;
+mod incircle;
 mod measure;
+mod order;
+mod ordinary;
 mod predicate;
 mod ray;
 mod twofold;

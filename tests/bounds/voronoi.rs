@@ -1,6 +1,6 @@
 //! Tolerances of the tests of `voronoi`.
 
-use steradian::voronoi::SOLID_ANGLE_ERROR;
+use steradian::voronoi::{CORNER_ERROR, SOLID_ANGLE_ERROR};
 
 /// (function, regime, bound, kind of evidence); `regime` is the name of a case of the oracle, a kind of input, or `*`.
 pub const TABLE: &[(&str, &str, f64, &str)] = &[
@@ -15,6 +15,8 @@ pub const TABLE: &[(&str, &str, f64, &str)] = &[
     ("polygon", "vector_moment", 4e-15, "searched: random"),
     // x·(u − v) where u is the nearest site to the query x, or x a point of the cell of u.
     ("nearest", "*", 1e-15, "two roundings of a dot product"),
+    // x·(u − v) for a corner x of the cell of u, and any other site v.
+    ("corner", "*", CORNER_ERROR, "as documented"),
     // det(a, b, x) for corners a, b of an edge and x in the cell.
     ("inside", "*", 1e-14, "corners right to 64 u, twice"),
     // Absolute change of solid angles and vector moments under operations that change nothing.
@@ -22,6 +24,17 @@ pub const TABLE: &[(&str, &str, f64, &str)] = &[
     ("halves", "*", 1e-14, "searched: random"),
     // A rotation rounds the sites: 1e-16 over the distance of close sites, here at least 1e-4.
     ("rotated", "*", 1e-10, "searched: random"),
+    // Absolute error against the slow cells, of a solid angle and of the length of a moment.
+    ("slow", "*", 2.0 * SOLID_ANGLE_ERROR, "three components, and the moments of the slow cells"),
+    // Of narrow cells relative; the second one times the width over the solid angle.
+    ("slow", "narrow", 1e-12, "required"),
+    ("slow", "corners", 4e-16, "required: corners rounded to doubles"),
+    // Cells that are larger than this are measured by the slow cells to their bound relative.
+    ("judged", "*", 1e-26, "ends of arcs are right to 1e-28 and 1e-13 long"),
+    // And if the sine of no corner is smaller than this.
+    ("sharpest", "*", 1e-3, "ends of arcs are right to 1e-31 over this"),
+    // The slow cells themselves, relative, against 512 bits.
+    ("slow cells", "*", 4e-15, "searched: oracle"),
     // Sums, beside `validate`: absolute, of up to 2000 cells.
     ("sum", "*", 1e-13, "searched: random"),
 ];

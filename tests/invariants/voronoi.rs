@@ -1,7 +1,8 @@
 //! What must hold for the diagram of any sites at all: used by tests and by fuzzing.
+#![allow(dead_code, reason = "each user takes a part of it")]
 
 use steradian::glam::DVec3;
-use steradian::voronoi::{self, Builder, Diagram, VoronoiError};
+use steradian::voronoi::{self, Builder, Diagram, HORIZON, VoronoiError};
 
 fn diagram(sites: &[DVec3], pole: Option<DVec3>) -> Result<Diagram, VoronoiError> {
     match pole {
@@ -24,6 +25,8 @@ pub fn check(sites: &[DVec3], pole: Option<DVec3>) {
         panic!("{defect} for the sites {sites:?} and the pole {pole:?}");
     }
     assert_eq!(first.len(), sites.len());
+    let characteristic = euler(&first);
+    assert_eq!(characteristic, if pole.is_some() { 1 } else { 2 }, "V − E + F for {sites:?} and the pole {pole:?}");
 
     // A builder that was used before gives the same bits, and so do sites of other lengths along the same rays.
     let mut builder = Builder::new();
@@ -37,6 +40,52 @@ pub fn check(sites: &[DVec3], pole: Option<DVec3>) {
         Ok(again) => assert_same_bits(&first, again),
         Err(error) => panic!("{error} for {scaled:?}"),
     }
+}
+
+/// V − E + F of the cells that are not empty: 2 for a sphere and 1 for a disk, if each cell is in one piece.
+///
+/// Corners of cells are one where both cells have it at the same end of a shared edge. An edge without corners is a
+/// circle, and has one corner more and the same number of edges; the whole sphere counts as its one cell and one corner.
+pub fn euler(diagram: &Diagram) -> i64 {
+    let mut starts = Vec::new();
+    let mut corners = 0;
+    for cell in diagram.cells() {
+        starts.push(corners);
+        corners += cell.vertices().len();
+    }
+    // `same[c]` leads to another name of corner c, and at last to itself.
+    let mut same: Vec<usize> = (0..corners).collect();
+    let root = |same: &[usize], mut c: usize| {
+        while same[c] != c {
+            c = same[c];
+        }
+        c
+    };
+    let (mut halves, mut circles, mut faces) = (0, 0, 0);
+    for (cell, start) in diagram.cells().zip(&starts) {
+        let (sides, len) = (cell.neighbors(), cell.vertices().len());
+        faces += i64::from(!sides.is_empty());
+        for (k, &neighbor) in sides.iter().enumerate() {
+            let weight = if neighbor == HORIZON { 2 } else { 1 };
+            halves += weight;
+            if len == 0 {
+                circles += weight;
+                continue;
+            }
+            if neighbor == HORIZON {
+                continue;
+            }
+            let other = diagram.cell(neighbor as usize);
+            let back =
+                other.neighbors().iter().position(|&id| id as usize == cell.site()).expect("neighbours are mutual");
+            let end = starts[other.site()] + (back + 1) % other.vertices().len();
+            let (a, b) = (root(&same, start + k), root(&same, end));
+            same[a] = b;
+        }
+    }
+    let vertices = (0..corners).filter(|&c| same[c] == c).count() as i64;
+    let alone = if halves == 0 { 2 } else { 0 };
+    vertices + alone + (circles - halves) / 2 + faces
 }
 
 /// `v` times a power of two that depends on `i`, or `v` itself where that would round.

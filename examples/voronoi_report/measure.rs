@@ -1,0 +1,179 @@
+//! Everything that is measured, in rounds, so that a busy machine slows all of it alike.
+
+use std::error::Error;
+
+use steradian::voronoi;
+
+use super::errors::{Reference, sum_error};
+use super::programs::{Folder, LARGEST, PROGRAMS, Run};
+use super::{seeds, shapes};
+
+/// Most cells that are computed again with thirty digits.
+pub const SAMPLE: usize = 100_000;
+
+/// One program on one set of sites.
+#[derive(Clone, Debug, Default)]
+pub struct Result {
+    /// Least CPU seconds of all rounds.
+    pub build: Option<f64>,
+    pub total: Option<f64>,
+    pub peak: Option<f64>,
+    /// Worst relative error of a cell.
+    pub worst: Option<f64>,
+    pub sum_error: Option<f64>,
+}
+
+pub struct Size {
+    pub n: usize,
+    /// One for each program.
+    pub results: Vec<Option<Result>>,
+}
+
+pub struct ShapeResult {
+    pub name: String,
+    pub n: usize,
+    /// CPU seconds of this crate, and its time a site over that of as many random sites: the median of the rounds.
+    pub seconds: f64,
+    pub ratio: f64,
+    /// CGAL's triangulation alone.
+    pub cgal: Option<f64>,
+}
+
+/// A ratio of times that were taken in turns: the median of the rounds.
+pub struct Ratio {
+    pub what: String,
+    pub value: Option<f64>,
+}
+
+pub struct Report {
+    pub sizes: Vec<Size>,
+    pub shapes: Vec<ShapeResult>,
+    pub ratios: Vec<Ratio>,
+    /// What programs said when they refused the sites.
+    pub refused: Vec<String>,
+}
+
+fn least(a: Option<f64>, b: Option<f64>) -> Option<f64> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(a.min(b)),
+        (a, b) => a.or(b),
+    }
+}
+
+fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}
+
+pub fn report(
+    folder: &Folder,
+    largest: usize,
+    shape: usize,
+    rounds: usize,
+) -> std::result::Result<Report, Box<dyn Error>> {
+    let mut report = Report { sizes: Vec::new(), shapes: Vec::new(), ratios: Vec::new(), refused: Vec::new() };
+    let mut n = 100;
+    while n <= largest {
+        size(folder, n, rounds, &mut report)?;
+        n *= 10;
+    }
+    report.ratios.push(dome(folder, rounds.max(9))?);
+    for shape_kind in shapes::HARD {
+        report.shapes.push(hard(folder, shape_kind, shape, rounds)?);
+    }
+    report.refused = folder.refused.take().into_iter().collect();
+    Ok(report)
+}
+
+/// Repetitions that take about a tenth of a second at a microsecond a site.
+fn repeat(n: usize) -> usize {
+    (100_000 / n).clamp(1, 500)
+}
+
+fn size(folder: &Folder, n: usize, rounds: usize, report: &mut Report) -> std::result::Result<(), Box<dyn Error>> {
+    eprintln!("{n} random sites");
+    let sites = shapes::sites(shapes::Shape::Random, n, &mut seeds::rng(n as u64));
+    folder.write(&sites)?;
+    let mut results: Vec<Option<Result>> = vec![None; PROGRAMS.len()];
+    let mut areas = vec![None; PROGRAMS.len()];
+    let mut ratios = Vec::new();
+    for _ in 0..rounds {
+        let mut builds = [None; PROGRAMS.len()];
+        for program in 0..PROGRAMS.len() {
+            // The slow ones need not be repeated, and their rounds at a million sites neither.
+            let slow = program > 1;
+            if n > LARGEST[program] || slow && n > 10_000 && results[program].is_some() {
+                continue;
+            }
+            let repeat = if slow { repeat(10 * n) } else { repeat(n) };
+            let Some(run) = folder.run(program, repeat, false)? else { continue };
+            let Run { build, total, peak, areas: cells } = run;
+            builds[program] = if program == 0 { total } else { build };
+            let result = results[program].get_or_insert_default();
+            result.build = least(result.build, build);
+            result.total = least(result.total, total);
+            result.peak = least(result.peak, peak);
+            areas[program] = cells;
+        }
+        if let [Some(own), Some(cgal), ..] = builds {
+            ratios.push(own / cgal);
+        }
+    }
+    let diagram = voronoi::sphere(&sites)?;
+    diagram.validate()?;
+    let reference = Reference::new(&sites, &diagram, SAMPLE);
+    for (result, areas) in results.iter_mut().zip(&areas) {
+        if let (Some(result), Some(areas)) = (result, areas) {
+            result.worst = Some(reference.worst(areas));
+            result.sum_error = Some(sum_error(areas));
+        }
+    }
+    let what = format!("{n} random sites: triangulation, cells, areas and moments over CGAL's triangulation alone");
+    report.ratios.push(Ratio { what, value: median(ratios) });
+    report.sizes.push(Size { n, results });
+    Ok(())
+}
+
+/// The job of a sampler: 200 sites above the horizon, over and over.
+fn dome(folder: &Folder, rounds: usize) -> std::result::Result<Ratio, Box<dyn Error>> {
+    let sites = shapes::sites(shapes::Shape::Dome, 200, &mut seeds::rng(200));
+    folder.write(&sites)?;
+    let mut ratios = Vec::new();
+    for _ in 0..rounds {
+        let own = folder.run(0, 500, true)?.and_then(|run| run.total);
+        let cgal = folder.run(1, 500, false)?.and_then(|run| run.build);
+        if let (Some(own), Some(cgal)) = (own, cgal) {
+            ratios.push(own / cgal);
+        }
+    }
+    let what = "200 sites, hemisphere, warm builder, solid angles and moments over CGAL's triangulation alone".into();
+    Ok(Ratio { what, value: median(ratios) })
+}
+
+fn hard(
+    folder: &Folder,
+    shape: shapes::Shape,
+    n: usize,
+    rounds: usize,
+) -> std::result::Result<ShapeResult, Box<dyn Error>> {
+    eprintln!("{shape:?}");
+    let sites = shapes::sites(shape, n, &mut seeds::rng(1));
+    let random = shapes::sites(shapes::Shape::Random, sites.len(), &mut seeds::rng(2));
+    let (mut seconds, mut ratios, mut cgal) = (None, Vec::new(), None);
+    for round in 0..rounds {
+        folder.write(&random)?;
+        let base = folder.run(0, 1, false)?.and_then(|run| run.total);
+        folder.write(&sites)?;
+        let own = folder.run(0, 1, false)?.and_then(|run| run.total);
+        // CGAL takes the square of the number of sites on one circle.
+        if round == 0 && shape != shapes::Shape::SmallCircle {
+            cgal = folder.run(1, 1, false)?.and_then(|run| run.build);
+        }
+        if let (Some(own), Some(base)) = (own, base) {
+            ratios.push(own / base);
+        }
+        seconds = least(seconds, own);
+    }
+    let (seconds, ratio) = (seconds.unwrap_or(f64::NAN), median(ratios).unwrap_or(f64::NAN));
+    Ok(ShapeResult { name: format!("{shape:?}"), n: sites.len(), seconds, ratio, cgal })
+}

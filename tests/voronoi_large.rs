@@ -1,0 +1,144 @@
+//! Law: for thousands of sites too, a corner is equally far from its three sites and nearer to no other one, the nearest site
+//! owns the cell, neighbours are mutual, V − E + F = 2, and a rotation turns the diagram.
+#![cfg(feature = "sphere")]
+
+use std::f64::consts::PI;
+
+use bounds::voronoi::bound;
+use rand::RngExt;
+use sites::Kind;
+use steradian::glam::{DQuat, DVec3};
+use steradian::voronoi::{self, Diagram, HORIZON};
+
+mod bounds;
+#[path = "invariants/voronoi.rs"]
+mod invariants;
+mod seeds;
+#[path = "invariants/voronoi_sites.rs"]
+mod sites;
+
+/// Shapes, and how many sites.
+const SHAPES: [(Kind, usize); 10] = [
+    (Kind::Uniform, 3000),
+    (Kind::UpperHalf, 3000),
+    (Kind::Lattice, 2000),
+    (Kind::Rings, 2000),
+    (Kind::CubedSphere, 2400),
+    (Kind::SmallCircle, 3000),
+    (Kind::Perturbed, 2000),
+    (Kind::NearDuplicates, 1000),
+    (Kind::Cap(3), 3000),
+    (Kind::Clusters(3), 3000),
+];
+
+/// As if in twice the precision (Neumaier 1974), for thousands of roundings would hide errors.
+fn compensated_sum(terms: &[f64]) -> f64 {
+    let (mut sum, mut rest) = (0.0f64, 0.0);
+    for &term in terms {
+        let next = sum + term;
+        rest += if sum.abs() >= term.abs() { (sum - next) + term } else { (term - next) + sum };
+        sum = next;
+    }
+    sum + rest
+}
+
+/// Calls `check` with each shape, on the sphere and on the hemisphere of a random pole.
+fn each(mut check: impl FnMut(Kind, &[DVec3], &Diagram)) {
+    let mut rng = seeds::rng(3);
+    for (kind, n) in SHAPES {
+        let sites = sites::make(kind, n, &mut rng);
+        check(kind, &sites, &voronoi::sphere(&sites).expect("sites are valid"));
+        let pole = sites::direction(&mut rng);
+        check(kind, &sites, &voronoi::hemisphere(&sites, pole).expect("sites are valid"));
+    }
+}
+
+#[test]
+fn corners_are_equally_far_from_their_sites_and_nearer_to_none() {
+    each(|kind, _, diagram| {
+        let owners: Vec<DVec3> =
+            diagram.cells().filter(|cell| cell.owner() == cell.site()).map(|cell| cell.direction()).collect();
+        // About a thousand cells: each corner is compared with all sites.
+        for cell in diagram.cells().step_by(diagram.len().div_ceil(1000)) {
+            for (k, &corner) in cell.vertices().iter().enumerate() {
+                let cosine = corner.dot(cell.direction());
+                let edges = cell.neighbors();
+                for &id in [edges[k], edges[(k + edges.len() - 1) % edges.len()]].iter().filter(|&&id| id != HORIZON) {
+                    let off = corner.dot(diagram.cell(id as usize).direction()) - cosine;
+                    let allowed = bound("corner", "*");
+                    assert!(
+                        off.abs() <= allowed,
+                        "{kind:?}: corner {k} of cell {} is {off:e} nearer to {id}",
+                        cell.site()
+                    );
+                }
+                let nearest = owners.iter().map(|site| corner.dot(*site)).fold(-1.0, f64::max);
+                let off = nearest - cosine;
+                assert!(
+                    off <= bound("corner", "*"),
+                    "{kind:?}: a site is {off:e} nearer to corner {k} of cell {}",
+                    cell.site()
+                );
+            }
+        }
+    });
+}
+
+#[test]
+fn the_nearest_site_owns_the_cell() {
+    let mut rng = seeds::rng(4);
+    each(|kind, sites, diagram| {
+        for turn in 0..200 {
+            // Half of the queries are near sites, where cells are small.
+            let scale = 0.1f64.powi(rng.random_range(1..8));
+            let offset = sites::direction(&mut rng);
+            let query = if turn % 2 == 0 { offset } else { sites[rng.random_range(0..sites.len())] + scale * offset };
+            let query = query.normalize();
+            if diagram.pole().is_some_and(|pole| query.dot(pole) < bound("nearest", "*")) {
+                continue;
+            }
+            let cosine = |i: usize| query.dot(diagram.cell(i).direction());
+            let owners = || (0..sites.len()).filter(|&i| diagram.cell(i).owner() == i);
+            let nearest = owners().max_by(|&i, &j| cosine(i).total_cmp(&cosine(j))).expect("there are sites");
+            if owners().any(|i| i != nearest && cosine(i) >= cosine(nearest) - bound("nearest", "*")) {
+                continue;
+            }
+            let corners = diagram.cell(nearest).vertices();
+            for (k, &start) in corners.iter().enumerate() {
+                let height = start.cross(corners[(k + 1) % corners.len()]).dot(query);
+                assert!(
+                    height >= -bound("inside", "*"),
+                    "{kind:?}: {query} is {height:e} beyond edge {k} of cell {nearest}"
+                );
+            }
+        }
+    });
+}
+
+#[test]
+fn cells_partition_and_close() {
+    each(|kind, _, diagram| {
+        assert_eq!(diagram.validate(), Ok(()), "{kind:?}");
+        let (whole, characteristic) = if diagram.pole().is_some() { (2.0 * PI, 1) } else { (4.0 * PI, 2) };
+        let sum = compensated_sum(diagram.solid_angles());
+        assert!((sum - whole).abs() <= bound("sum", "*"), "{kind:?}: {sum}");
+        assert_eq!(invariants::euler(diagram), characteristic, "{kind:?}");
+    });
+}
+
+#[test]
+fn a_rotation_turns_the_diagram() {
+    let mut rng = seeds::rng(5);
+    for (kind, n) in SHAPES.into_iter().filter(|shape| shape.0 != Kind::NearDuplicates) {
+        let sites = sites::make(kind, n, &mut rng);
+        let turn = DQuat::from_axis_angle(sites::direction(&mut rng), rng.random_range(-PI..PI));
+        let turned: Vec<DVec3> = sites.iter().map(|&v| turn * v).collect();
+        let [before, after] = [&sites, &turned].map(|sites| voronoi::sphere(sites).expect("sites are valid"));
+        for i in 0..n {
+            let (a, b) = (before.solid_angles()[i], after.solid_angles()[i]);
+            let (m, w) = (turn * before.vector_moments()[i], after.vector_moments()[i]);
+            let off = (a - b).abs().max((m - w).length());
+            assert!(off <= bound("rotated", "*"), "{kind:?}: cell {i} was {a} {m} and is {b} {w}, {off:e} off");
+        }
+    }
+}

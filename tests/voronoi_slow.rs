@@ -1,0 +1,78 @@
+//! Law: cells are those that slow, independent code finds, and the circle of every corner is empty, by integers.
+#![cfg(feature = "sphere")]
+
+use bounds::voronoi::{MERGED_BY_THE_ORACLE, bound};
+use num_bigint::Sign;
+use proptest::prelude::*;
+use proptest::sample::select;
+use steradian::glam::DVec3;
+
+mod bounds;
+#[path = "oracles/voronoi_cells.rs"]
+mod cells;
+#[path = "oracles/voronoi_circles.rs"]
+mod circles;
+#[path = "invariants/voronoi_laws.rs"]
+mod laws;
+#[path = "oracles/voronoi_cases.rs"]
+mod oracle;
+mod seeds;
+#[path = "invariants/voronoi_sites.rs"]
+mod sites;
+
+/// Kinds whose components are of similar sizes, as the slow cells need them.
+fn moderate() -> Vec<sites::Kind> {
+    sites::KINDS.into_iter().filter(|&kind| kind != sites::Kind::AllExponents).collect()
+}
+
+proptest! {
+    #![proptest_config(seeds::config(60))]
+
+    #[test]
+    fn cells_are_those_of_slow_code(kind in select(moderate()), n in 1..32usize, seed: u64) {
+        let mut rng = sites::rng(seed);
+        let sites = sites::make(kind, n, &mut rng);
+        laws::slow(&sites, None);
+        for pole in [DVec3::Z, sites::direction(&mut rng), sites[n / 2], -sites[n - 1]] {
+            laws::slow(&sites, Some(pole));
+        }
+    }
+
+    #[test]
+    fn circles_are_empty(kind in select(&sites::KINDS[..]), n in 1..14usize, seed: u64) {
+        laws::empty_circles(&sites::make(kind, n, &mut sites::rng(seed)));
+    }
+}
+
+/// The slow cells against the 512 bits of the oracle, for they judge others.
+#[test]
+fn slow_cells_are_right() {
+    let mut worst = 0.0f64;
+    let moderate = |case: &&oracle::Case| case.sites.len() <= 64 && !MERGED_BY_THE_ORACLE.contains(&case.name.as_str());
+    for case in oracle::cases().iter().filter(moderate) {
+        let sites = oracle::vectors(&case.sites);
+        for (pole, want) in [(None, &case.area), (Some(DVec3::Z), &case.area_hemi)] {
+            for (i, (got, want)) in cells::cells(&sites, pole).iter().zip(want).enumerate() {
+                let (got, want) = (got.solid_angle, oracle::parse::<f64>(want));
+                let error = if want == 0.0 { got.abs() } else { (got / want - 1.0).abs() };
+                let allowed = bound("slow cells", &case.name);
+                assert!(error <= allowed, "{} {pole:?}, cell {i}: got {got:e}, want {want:e}, {error:e}", case.name);
+                worst = worst.max(error);
+            }
+        }
+    }
+    println!("worst relative error {worst:e}");
+}
+
+#[test]
+fn circles_know_the_inside_from_the_outside() {
+    let [x, y, z] = [DVec3::X, 3.0 * DVec3::Y, 1e-200 * DVec3::Z];
+    assert_eq!(circles::side(x, y, z, DVec3::ONE), Sign::Plus);
+    assert_eq!(circles::side(x, z, y, DVec3::ONE), Sign::Minus);
+    assert_eq!(circles::side(x, y, z, DVec3::NEG_X), Sign::Minus);
+    assert_eq!(circles::side(x, y, z, 1e100 * DVec3::X), Sign::NoSign);
+    // (2, 2, −1)/3 is on the circle x + y + z = 1, and one unit in the last place tells.
+    assert_eq!(circles::side(x, y, z, DVec3::new(2.0, 2.0, -1.0)), Sign::NoSign);
+    assert_eq!(circles::side(x, y, z, DVec3::new(2.0, 2.0, -1.0 + f64::EPSILON)), Sign::Plus);
+    assert_eq!(circles::side(x, y, z, DVec3::new(2.0, 2.0, -1.0 - f64::EPSILON)), Sign::Minus);
+}
