@@ -150,6 +150,30 @@ impl Cell {
         DVec3::new(ring * (s1 - s0), ring * (c0 - c1), self.projected_solid_angle())
     }
 
+    /// Normal of the meridian at the upper end of the azimuth, towards larger azimuths.
+    pub(super) fn meridian_normal(&self) -> DVec3 {
+        let (sin, cos) = float::sin_cos(self.azimuth[1]);
+        DVec3::new(-sin, cos, 0.0)
+    }
+
+    /// ∫ cos θ dθ over the part of a meridian between two values of u, the lower one first.
+    pub(super) fn meridian_height(&self, [low, high]: [f64; 2]) -> f64 {
+        self.map.cos_sin(low).1 - self.map.cos_sin(high).1
+    }
+
+    /// ∫ (cos φ, sin φ, 0) dφ between two azimuths.
+    pub(super) fn outward_arc(azimuth: [f64; 2]) -> DVec3 {
+        let [(s0, c0), (s1, c1)] = azimuth.map(float::sin_cos);
+        DVec3::new(s1 - s0, c0 - c1, 0.0)
+    }
+
+    /// cos² θ sin θ at the upper end of u: with it, [`outward_arc`](Self::outward_arc) is the tangent part of ∫ N cos θ dl
+    /// over a parallel, with N towards the horizon.
+    pub(super) fn parallel_factor(&self) -> f64 {
+        let (cos, sin) = self.map.cos_sin(self.u[1]);
+        cos * cos * sin
+    }
+
     /// Vector moments of all cells of a grid, in the order of the grid: as [`vector_moment`](Self::vector_moment) to the
     /// bit, but with one transcendental function a ring and a sector in place of four a cell.
     pub(super) fn moments_of_grid(cells: &[Self], sectors: usize) -> Vec<DVec3> {

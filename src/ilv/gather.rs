@@ -114,7 +114,7 @@ impl fmt::Display for GatherError {
                 )
             }
             Self::TooManySites { rays } => {
-                write!(f, "a gather with Voronoi weights may take {rays} rays, above {}", Gather::MAX_SITES)
+                write!(f, "a gather with a Voronoi diagram may take {rays} rays, above {}", Gather::MAX_SITES)
             }
             Self::Voronoi(error) => write!(f, "the Voronoi diagram of the rays failed: {error}"),
         }
@@ -127,7 +127,7 @@ impl Gather {
     /// The largest radiance and the largest reflectance, colour by colour: sums of their squares are still numbers.
     pub const BRIGHTEST: f64 = 1e75;
 
-    /// The most rays that a gather with Voronoi weights may be allowed; a diagram of that many takes some minutes, one of
+    /// The most rays that a gather with a Voronoi diagram, for its weights or its gradient, may be allowed; a diagram of that many takes some minutes, one of
     /// a thousand some milliseconds.
     pub const MAX_SITES: u64 = 1 << 17;
 
@@ -190,7 +190,7 @@ impl AdaptiveSampler {
         R: Rng + ?Sized,
     {
         let most = self.most_rays();
-        if self.weights != Weights::LeafMeasure && most > Gather::MAX_SITES {
+        if (self.weights != Weights::LeafMeasure || self.refinement.is_some()) && most > Gather::MAX_SITES {
             return Err(GatherError::TooManySites { rays: most });
         }
         let frame = frame.rotated(core::f64::consts::TAU * rng.random::<f64>());
@@ -207,8 +207,8 @@ impl AdaptiveSampler {
         }
         let weighing =
             Weighing { weights: self.weights, sectors: self.grid[1] as usize, frame: &frame, leaves: &leaves };
-        weighing.assign(&mut rays).map_err(GatherError::Voronoi)?;
-        let vector = weighing.light_vector(&rays);
+        let gradient = weighing.assign(&mut rays).map_err(GatherError::Voronoi)?;
+        let vector = weighing.light_vector(&rays, gradient);
         Ok(Gather { frame, cells: leaves.cells, rays, vector })
     }
 

@@ -33,6 +33,7 @@ mod cache;
 mod cell;
 mod frame;
 mod gather;
+mod gradient;
 mod luminance;
 mod refinement;
 mod sampler;

@@ -17,6 +17,7 @@ use super::luminance;
 pub struct LightVector {
     pub(super) irradiance: DVec3,
     pub(super) vector_irradiance: DVec3,
+    pub(super) translation_gradient: [DVec3; 3],
     pub(super) standard_error: f64,
     pub(super) mean_distance: f64,
     pub(super) rays: u32,
@@ -70,6 +71,39 @@ impl LightVector {
         self.rays
     }
 
+    /// Gradients of the red, green and blue irradiance when the point moves in its tangent plane and the normal stays: in
+    /// world coordinates, irradiance over the unit of distance.
+    ///
+    /// # Model
+    /// The light is taken as constant on each cell of the sphere, its borders as fixed in space at the distance t of the
+    /// nearer side. When the point moves they move among the directions: ∇E = Σ (Lⱼ − Lᵢ)/t ∫ N (n·ω) dl over the borders
+    /// of cells i and j, with N their unit normal from i to j. The cells are those of the grid where each has one ray and
+    /// counts with its measure, the Voronoi cells of the rays elsewhere. A border at distance zero is left out; what is
+    /// not a finite number is zero.
+    ///
+    /// # Accuracy
+    /// Statistical, and consistent as the cells get smaller; nearer borders make it a little long. Beside a lone bright
+    /// rectangle, and beside a wall, its mean over gathers of 208 stratified rays is 0.97 and 1.21 of the exact one and its scatter
+    /// 0.05 and 0.03 of it (`tests/light_vector_gradient.rs`). On points of three test scenes, at 208 rays, the root mean square error is
+    /// 0.29 to 0.38 of |∇E| + E/(size of the scene) by Voronoi cells and 0.33 to 0.47 by the grid; at 1024 rays 0.19 to 0.25.
+    /// Where the light is the same in all directions it is exactly zero.
+    ///
+    /// # Source
+    /// Ward and Heckbert, *Irradiance Gradients* (1992), for grids; the same integral over Voronoi edges is ours.
+    #[must_use]
+    pub fn translation_gradient(&self) -> [DVec3; 3] {
+        self.translation_gradient
+    }
+
+    /// Irradiance at the point that lies `offset` away, on a surface with the same normal.
+    ///
+    /// E + ∇E·offset, cut colour by colour to [0, 2] times E; an `offset` that is not finite gives E.
+    #[must_use]
+    pub fn translated(&self, offset: DVec3) -> DVec3 {
+        let rise = DVec3::from_array(self.translation_gradient.map(|gradient| gradient.dot(offset)));
+        if rise.is_nan() { self.irradiance } else { self.irradiance + rise.clamp(-self.irradiance, self.irradiance) }
+    }
+
     /// Irradiance on a surface at the same point whose unit normal is `to` in place of `from`.
     ///
     /// # Model
@@ -82,12 +116,20 @@ impl LightVector {
     /// free with the vector of Serpaggi and Péroche (2001).
     #[must_use]
     pub fn turned(&self, from: DVec3, to: DVec3) -> DVec3 {
+        self.irradiance * self.turn(from, to)
+    }
+
+    /// Irradiance at the point that lies `offset` away, on a surface whose unit normal is `to` in place of `from`:
+    /// [`translated`](Self::translated), times the factor of [`turned`](Self::turned).
+    #[must_use]
+    pub fn moved(&self, offset: DVec3, from: DVec3, to: DVec3) -> DVec3 {
+        self.translated(offset) * self.turn(from, to)
+    }
+
+    /// The factor of the irradiance when the normal turns.
+    fn turn(&self, from: DVec3, to: DVec3) -> f64 {
         let power = from.dot(self.vector_irradiance);
-        if power > 0.0 {
-            self.irradiance * (to.dot(self.vector_irradiance) / power).clamp(0.0, 2.0)
-        } else {
-            self.irradiance
-        }
+        if power > 0.0 { (to.dot(self.vector_irradiance) / power).clamp(0.0, 2.0) } else { 1.0 }
     }
 
     /// Radiance that a diffuse surface of the given reflectance sends out: ρ E/π.

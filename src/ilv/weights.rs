@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use glam::DVec3;
 
-use super::{Cell, CellMap, Frame, LightVector, Ray, gather::Leaves, luminance, sum::Sum};
+use super::{Cell, CellMap, Frame, LightVector, Ray, gather::Leaves, gradient, luminance, sum::Sum};
 use crate::voronoi::{self, VoronoiError};
 
 /// The part of the hemisphere for which a ray stands, as a vector m: E = Σ L (n·m) and Φ = Σ Y m.
@@ -39,23 +39,24 @@ pub(super) struct Weighing<'a> {
 }
 
 impl Weighing<'_> {
-    /// Sets the vector weight of every ray.
-    pub(super) fn assign(&self, rays: &mut [Ray]) -> Result<(), VoronoiError> {
-        match self.weights {
-            Weights::LeafMeasure => self.share_leaves(rays),
-            Weights::VoronoiArea | Weights::VoronoiMoment => {
-                let sites: Vec<DVec3> = rays.iter().map(|ray| ray.direction).collect();
-                let dome = voronoi::hemisphere(&sites, self.frame.normal())?;
-                for (index, ray) in rays.iter_mut().enumerate() {
-                    ray.moment = if self.weights == Weights::VoronoiMoment {
-                        dome.vector_moments()[index]
-                    } else {
-                        ray.direction * dome.solid_angles()[index]
-                    };
-                }
+    /// Sets the vector weight of every ray; returns the translation gradient.
+    pub(super) fn assign(&self, rays: &mut [Ray]) -> Result<[DVec3; 3], VoronoiError> {
+        if self.weights == Weights::LeafMeasure {
+            self.share_leaves(rays);
+            if self.is_grid() && rays.len() == self.leaves.cells.len() {
+                return Ok(gradient::of_grid(&self.leaves.cells, self.sectors, rays, self.frame));
             }
         }
-        Ok(())
+        let sites: Vec<DVec3> = rays.iter().map(|ray| ray.direction).collect();
+        let dome = voronoi::hemisphere(&sites, self.frame.normal())?;
+        for (index, ray) in rays.iter_mut().enumerate() {
+            match self.weights {
+                Weights::LeafMeasure => {}
+                Weights::VoronoiArea => ray.moment = ray.direction * dome.solid_angles()[index],
+                Weights::VoronoiMoment => ray.moment = dome.vector_moments()[index],
+            }
+        }
+        Ok(gradient::of_diagram(&dome, rays, self.frame.normal()))
     }
 
     fn share_leaves(&self, rays: &mut [Ray]) {
@@ -79,7 +80,7 @@ impl Weighing<'_> {
     }
 
     /// The light vector of weighed rays.
-    pub(super) fn light_vector(&self, rays: &[Ray]) -> LightVector {
+    pub(super) fn light_vector(&self, rays: &[Ray], translation_gradient: [DVec3; 3]) -> LightVector {
         let normal = self.frame.normal();
         let (mut irradiance, mut vector_irradiance) = (Sum::default(), Sum::default());
         let mut weight = 0.0;
@@ -96,6 +97,7 @@ impl Weighing<'_> {
         LightVector {
             irradiance: irradiance.value(),
             vector_irradiance: vector_irradiance.value(),
+            translation_gradient,
             standard_error: self.variance(rays).sqrt(),
             mean_distance: if weight_by_distance > 0.0 { weight / weight_by_distance } else { f64::INFINITY },
             rays: rays.len() as u32,
