@@ -31,13 +31,18 @@
 
 mod cache;
 mod cell;
+mod fences;
 mod frame;
 mod gather;
 mod gradient;
+mod interpolation;
 mod luminance;
+mod record;
 mod refinement;
 mod sampler;
 mod source;
+#[cfg(feature = "serde")]
+mod stored;
 mod sum;
 mod validity;
 mod vector;
@@ -47,6 +52,7 @@ pub use cache::{Cache, CacheError};
 pub use cell::{Cell, CellMap};
 pub use frame::{Frame, FrameError};
 pub use gather::{Gather, GatherError, Ray};
+pub use interpolation::Vicinity;
 pub use luminance::{LUMINANCE_WEIGHTS, luminance};
 pub use refinement::{Refinement, RefinementError, Reuse};
 pub use sampler::{AdaptiveSampler, Points, SamplerError};

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::luminance;
+use super::{LUMINANCE_WEIGHTS, fences::Fences, luminance};
 
 /// The light that reaches one surface point, from everywhere above it, as one vector.
 ///
@@ -21,6 +21,7 @@ pub struct LightVector {
     pub(super) standard_error: f64,
     pub(super) mean_distance: f64,
     pub(super) rays: u32,
+    pub(super) fences: Fences,
 }
 
 impl LightVector {
@@ -130,6 +131,39 @@ impl LightVector {
     fn turn(&self, from: DVec3, to: DVec3) -> f64 {
         let power = from.dot(self.vector_irradiance);
         if power > 0.0 { (to.dot(self.vector_irradiance) / power).clamp(0.0, 2.0) } else { 1.0 }
+    }
+
+    /// Whether the point of the same surface that lies `offset` away is before every wall that the rays met.
+    ///
+    /// Up to four walls are remembered, from rays less than 45° above the surface, each as a plane across the surface a
+    /// hundredth before its foot. A wall that no such ray met is not known; a point beside a narrow thing may count as behind
+    /// it.
+    ///
+    /// # Examples
+    /// ```
+    /// use rand::SeedableRng;
+    /// use rand_pcg::Pcg64;
+    /// use steradian::{glam::DVec3, ilv::{AdaptiveSampler, Frame, Sample}};
+    ///
+    /// // A wall in the plane x = 2.
+    /// let distance = |direction: DVec3| if direction.x > 0.0 { 2.0 / direction.x } else { f64::INFINITY };
+    /// let mut wall = |direction| Sample { radiance: DVec3::ONE, distance: distance(direction) };
+    /// let sampler = AdaptiveSampler::stratified(208)?;
+    /// let gather = sampler.gather(Frame::new(DVec3::Z)?, &mut wall, &mut Pcg64::seed_from_u64(1))?;
+    /// assert!(gather.vector().reaches(DVec3::new(1.9, 0.0, 0.0)));
+    /// assert!(!gather.vector().reaches(DVec3::new(2.1, 0.0, 0.0)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn reaches(&self, offset: DVec3) -> bool {
+        !self.fences.hide(offset)
+    }
+
+    /// The distance over which the gradient changes the luminance of the irradiance by `amount`; infinite without a gradient.
+    pub(super) fn gradient_length(&self, amount: f64) -> f64 {
+        let [red, green, blue] = self.translation_gradient;
+        let steepness = (red * LUMINANCE_WEIGHTS.x + green * LUMINANCE_WEIGHTS.y + blue * LUMINANCE_WEIGHTS.z).length();
+        if steepness > 0.0 { amount / steepness } else { f64::INFINITY }
     }
 
     /// Radiance that a diffuse surface of the given reflectance sends out: ρ E/π.

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use glam::DVec3;
 
-use super::{Cell, CellMap, Frame, LightVector, Ray, gather::Leaves, gradient, luminance, sum::Sum};
+use super::{Cell, CellMap, Frame, LightVector, Ray, fences::Fences, gather::Leaves, gradient, luminance, sum::Sum};
 use crate::voronoi::{self, VoronoiError};
 
 /// The part of the hemisphere for which a ray stands, as a vector m: E = Σ L (n·m) and Φ = Σ Y m.
@@ -101,6 +101,7 @@ impl Weighing<'_> {
             standard_error: self.variance(rays).sqrt(),
             mean_distance: if weight_by_distance > 0.0 { weight / weight_by_distance } else { f64::INFINITY },
             rays: rays.len() as u32,
+            fences: Fences::of_rays(normal, rays.iter().map(|ray| (ray.direction, ray.distance))),
         }
     }
 

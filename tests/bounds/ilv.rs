@@ -13,6 +13,10 @@ pub const CACHE_SUM: f64 = 1e-12;
 /// The answer at the place of the only record: its irradiance times a weight and divided by it, two roundings.
 pub const CACHE_RECORD: f64 = 2.5e-16;
 
+/// Largest relative error of the irradiance before an endless wall, interpolated between records half its height apart:
+/// at least without gradients, at most with them.
+pub const CACHE_STRIP: [f64; 2] = [0.2, 0.07];
+
 /// Slack of inequalities between sums of distances, relative.
 pub const DISTANCE: f64 = 1e-12;
 

@@ -13,8 +13,8 @@ use steradian::{
 
 use super::{Scene, SceneSource};
 
-/// Pixels tested against the cache at a time.
-const TESTED_AT_A_TIME: usize = 4096;
+/// Side of the squares of pixels that search the cache together.
+const TILE: u32 = 8;
 /// Light vectors gathered at a time; they do not see each other, so a large batch would place some too many.
 const GATHERED_AT_A_TIME: usize = 16;
 /// Stride of the first, coarsest lattice of pixels at 600 pixels across.
@@ -159,62 +159,100 @@ fn render_through_cache(
     };
 
     // Coarse lattices first, so that the records end up evenly spread.
+    let tiles = tiles(view);
     let mut stride = (FIRST_STRIDE * view.size / 600).max(2).next_power_of_two();
     let mut seen = u32::MAX;
     while stride > 0 {
-        let lattice = scattered(lattice(view.size, stride, seen));
-        for pixels in lattice.chunks(TESTED_AT_A_TIME) {
-            let candidates: Vec<usize> = pixels.par_iter().copied().filter(|&pixel| uncovered(&cache, pixel)).collect();
-            let mut candidates = candidates.into_iter();
-            loop {
-                let batch: Vec<usize> =
-                    candidates.by_ref().filter(|&pixel| uncovered(&cache, pixel)).take(GATHERED_AT_A_TIME).collect();
-                if batch.is_empty() {
-                    break;
+        let on_lattice = |pixel: usize, stride: u32| {
+            (pixel as u32 % view.size) % stride == 0 && (pixel as u32 / view.size) % stride == 0
+        };
+        let bare: Vec<usize> = tiles
+            .par_iter()
+            .flat_map_iter(|tile| {
+                let new = |pixel: &usize| on_lattice(*pixel, stride) && (seen == u32::MAX || !on_lattice(*pixel, seen));
+                let mut pixels: Vec<usize> = tile.pixels.iter().copied().filter(new).collect();
+                let total = pixels.len();
+                if total > 0 {
+                    let vicinity = cache.within(tile.lower, tile.upper);
+                    pixels.retain(|&pixel| {
+                        let surface = view.lit(pixel).expect("tiles hold lit pixels");
+                        vicinity.irradiance(surface.position, surface.normal).is_none()
+                    });
                 }
-                let vectors: Vec<LightVector> =
-                    batch.par_iter().map(|&pixel| gather(pixel)).collect::<Result<_, _>>()?;
-                for (&pixel, vector) in batch.iter().zip(vectors) {
-                    let surface = view.lit(pixel).expect("only lit pixels are gathered");
-                    rays += u64::from(vector.rays());
-                    cache.insert(surface.position, surface.normal, vector).expect("hits are finite, normals unit");
-                }
+                progress((total - pixels.len()) as u64);
+                pixels
+            })
+            .collect();
+        let mut candidates = scattered(bare).into_iter();
+        loop {
+            let batch: Vec<usize> = candidates
+                .by_ref()
+                .inspect(|_| progress(1))
+                .filter(|&pixel| uncovered(&cache, pixel))
+                .take(GATHERED_AT_A_TIME)
+                .collect();
+            if batch.is_empty() {
+                break;
             }
-            progress(pixels.len() as u64);
+            let vectors: Vec<LightVector> = batch.par_iter().map(|&pixel| gather(pixel)).collect::<Result<_, _>>()?;
+            for (&pixel, vector) in batch.iter().zip(vectors) {
+                let surface = view.lit(pixel).expect("only lit pixels are gathered");
+                rays += u64::from(vector.rays());
+                cache.insert(surface.position, surface.normal, vector).expect("hits are finite, normals unit");
+            }
         }
         seen = stride;
         stride /= 2;
     }
 
     // A record whose radius a later neighbour cut short may leave a pixel bare: that one gets its own gather.
-    let pixels: Vec<(DVec3, u64)> = (0..view.visible.len())
-        .into_par_iter()
-        .map(|pixel| {
-            let Some(surface) = view.lit(pixel) else { return Ok((DVec3::ZERO, 0)) };
-            let (irradiance, rays) = match cache.irradiance_relaxed(surface.position, surface.normal) {
+    let read = |tile: &Tile| -> Result<Vec<(usize, DVec3, u64)>, GatherError> {
+        let vicinity = cache.within(tile.lower, tile.upper);
+        let pixels = tile.pixels.iter().map(|&pixel| {
+            let surface = view.lit(pixel).expect("tiles hold lit pixels");
+            let (irradiance, rays) = match vicinity.irradiance_relaxed(surface.position, surface.normal) {
                 Some(irradiance) => (irradiance, 0),
                 None => {
                     let vector = gather(pixel)?;
                     (vector.irradiance(), u64::from(vector.rays()))
                 }
             };
-            Ok((surface.reflectance * irradiance * std::f64::consts::FRAC_1_PI, rays))
-        })
-        .collect::<Result<_, GatherError>>()?;
-    let bare = pixels.iter().filter(|&&(_, rays)| rays > 0).count() as u64;
-    rays += pixels.iter().map(|&(_, rays)| rays).sum::<u64>();
-    let indirect = pixels.into_iter().map(|(radiance, _)| radiance).collect();
+            Ok((pixel, surface.reflectance * irradiance * std::f64::consts::FRAC_1_PI, rays))
+        });
+        pixels.collect()
+    };
+    let read = tiles.par_iter().map(read).collect::<Result<Vec<_>, GatherError>>()?;
+    let mut indirect = vec![DVec3::ZERO; view.visible.len()];
+    let mut bare = 0;
+    for (pixel, radiance, spent) in read.into_iter().flatten() {
+        indirect[pixel] = radiance;
+        bare += u64::from(spent > 0);
+        rays += spent;
+    }
     Ok(Rendering { indirect, light_vectors: cache.len() as u64 + bare, rays })
 }
 
-/// Pixels at the centres of a lattice with the given stride that are not on the one with stride `seen`.
-fn lattice(size: u32, stride: u32, seen: u32) -> Vec<usize> {
-    let axis: Vec<u32> = (0..size).filter(|x| x % stride == 0).collect();
-    let is_new = |x: u32, y: u32| seen == u32::MAX || x % seen != 0 || y % seen != 0;
-    axis.iter()
-        .flat_map(|&y| axis.iter().map(move |&x| (x, y)))
-        .filter(|&(x, y)| is_new(x, y))
-        .map(|(x, y)| (y * size + x) as usize)
+/// The lit pixels of a small square of the picture, and the box around what they show.
+struct Tile {
+    pixels: Vec<usize>,
+    lower: DVec3,
+    upper: DVec3,
+}
+
+fn tiles(view: &View) -> Vec<Tile> {
+    let across = view.size.div_ceil(TILE);
+    (0..across * across)
+        .map(|tile| {
+            let side = |k: u32| k * TILE..((k + 1) * TILE).min(view.size);
+            let rows = side(tile / across);
+            let all = rows.flat_map(|y| side(tile % across).map(move |x| (y * view.size + x) as usize));
+            let pixels: Vec<usize> = all.filter(|&pixel| view.lit(pixel).is_some()).collect();
+            let places = pixels.iter().filter_map(|&pixel| view.lit(pixel)).map(|surface| surface.position);
+            let (lower, upper) = places
+                .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lower, upper), at| (lower.min(at), upper.max(at)));
+            Tile { pixels, lower, upper }
+        })
+        .filter(|tile| !tile.pixels.is_empty())
         .collect()
 }
 
@@ -222,7 +260,7 @@ fn lattice(size: u32, stride: u32, seen: u32) -> Vec<usize> {
 fn scattered(pixels: Vec<usize>) -> Vec<usize> {
     let n = pixels.len();
     let mut step = ((n as f64 * 0.618_033_988_749_895) as usize).max(1);
-    while gcd(step, n) != 1 {
+    while n > 0 && gcd(step, n) != 1 {
         step += 1;
     }
     (0..n).map(|k| pixels[(k * step) % n]).collect()
