@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use glam::DVec3;
 use rstar::{AABB, RTree, RTreeObject};
 
-use super::{LightVector, Validity, ValidityError, Vicinity, interpolation::interpolate, record::Record};
+use super::{Estimate, LightVector, Validity, ValidityError, Vicinity, interpolation::interpolate, record::Record};
 
 /// A store of light vectors that answers a point and a normal with an interpolated irradiance.
 ///
@@ -169,14 +169,40 @@ impl Cache {
             let other = &self.records[neighbour];
             radius = radius.min(other.radius + position.distance(other.position));
         }
-        // The other way round: the newcomer may be nearer to a corner than its neighbours knew.
-        let affected: Vec<usize> = self.near(position, self.validity.maximum()).collect();
-        for neighbour in affected {
-            let other = &mut self.records[neighbour];
-            other.radius = other.radius.min(radius + position.distance(other.position));
-        }
+        self.limit_neighbors(position, radius);
         self.keep(index, Record { position, normal, radius, vector });
         Ok(())
+    }
+
+    /// Takes back what the records promise for `position` on the surface with unit `normal`: none of them is used there again,
+    /// relaxed or not, but those whose radius is the smallest already.
+    ///
+    /// For callers that know better: a test found that interpolation is wrong there.
+    pub fn retract(&mut self, position: DVec3, normal: DVec3) {
+        let Some(normal) = unit(normal).filter(|_| position.is_finite()) else { return };
+        let accuracy = self.validity.accuracy() * Self::RELAXATION;
+        let used: Vec<usize> = self
+            .near(position, 0.0)
+            .filter(|&index| self.records[index].error_at(position, normal, accuracy).is_some())
+            .collect();
+        for index in used {
+            let record = &mut self.records[index];
+            let reach = record.position.distance(position) / accuracy;
+            let radius = reach.clamp(self.validity.minimum().min(record.radius), record.radius);
+            record.radius = radius;
+            let place = record.position;
+            self.limit_neighbors(place, radius);
+        }
+    }
+
+    /// Keeps radii from growing faster than the distance to a record of this radius: it may be nearer to a corner than its
+    /// neighbours knew.
+    fn limit_neighbors(&mut self, position: DVec3, radius: f64) {
+        let affected: Vec<usize> = self.near(position, self.validity.maximum()).collect();
+        for neighbor in affected {
+            let other = &mut self.records[neighbor];
+            other.radius = other.radius.min(radius + position.distance(other.position));
+        }
     }
 
     fn keep(&mut self, index: u32, record: Record) {
@@ -223,17 +249,18 @@ impl Cache {
     /// where position or normal is not finite.
     #[must_use]
     pub fn irradiance(&self, position: DVec3, normal: DVec3) -> Option<DVec3> {
-        self.interpolated(position, normal, self.validity.accuracy())
+        self.interpolated(position, normal, self.validity.accuracy()).map(|estimate| estimate.irradiance)
     }
 
     /// The same with every record reaching [`RELAXATION`](Self::RELAXATION) times as far, which smooths: for reading a
     /// cache that is complete.
     #[must_use]
     pub fn irradiance_relaxed(&self, position: DVec3, normal: DVec3) -> Option<DVec3> {
-        self.interpolated(position, normal, self.validity.accuracy() * Self::RELAXATION)
+        let accuracy = self.validity.accuracy() * Self::RELAXATION;
+        self.interpolated(position, normal, accuracy).map(|estimate| estimate.irradiance)
     }
 
-    pub(super) fn interpolated(&self, position: DVec3, normal: DVec3, accuracy: f64) -> Option<DVec3> {
+    pub(super) fn interpolated(&self, position: DVec3, normal: DVec3, accuracy: f64) -> Option<Estimate> {
         let normal = unit(normal).filter(|_| position.is_finite())?;
         let near = self.near(position, 0.0).map(|index| &self.records[index]);
         interpolate(near, position, normal, accuracy, self.validity.uses_gradients())

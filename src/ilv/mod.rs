@@ -52,7 +52,7 @@ pub use cache::{Cache, CacheError};
 pub use cell::{Cell, CellMap};
 pub use frame::{Frame, FrameError};
 pub use gather::{Gather, GatherError, Ray};
-pub use interpolation::Vicinity;
+pub use interpolation::{Estimate, Vicinity};
 pub use luminance::{LUMINANCE_WEIGHTS, luminance};
 pub use refinement::{Refinement, RefinementError, Reuse};
 pub use sampler::{AdaptiveSampler, Points, SamplerError};
