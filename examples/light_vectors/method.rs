@@ -25,6 +25,7 @@ pub fn label(method: MethodName) -> &'static str {
         MethodName::Gradients => "gradients",
         MethodName::Seeded => "seeded",
         MethodName::Default => "default",
+        MethodName::Unbiased => "unbiased",
     }
 }
 
@@ -38,11 +39,12 @@ pub fn settings(method: MethodName, scene: &Scene, options: &Options) -> Result<
             AdaptiveSampler::stratified(options.stratified_rays)?
         }
         MethodName::Default => AdaptiveSampler::default(),
+        MethodName::Unbiased => AdaptiveSampler::unbiased(),
     };
     let validity = match method {
         MethodName::Brute => None,
         MethodName::Original | MethodName::Paper | MethodName::Stratified => Some(ward(options.accuracy, scene)?),
-        MethodName::Gradients | MethodName::Seeded | MethodName::Default => {
+        MethodName::Gradients | MethodName::Seeded | MethodName::Default | MethodName::Unbiased => {
             let accuracy = (REACH_OF_GRADIENTS * options.accuracy).min(Validity::LARGEST_ACCURACY);
             Some(Validity::for_scene(accuracy, scene.size)?)
         }

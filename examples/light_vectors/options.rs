@@ -87,6 +87,8 @@ pub enum MethodName {
     Seeded,
     /// Light vectors of this crate's adaptive sampler, interpolated along their gradients
     Default,
+    /// The same with unbiased irradiances
+    Unbiased,
 }
 
 fn parse_accuracy(text: &str) -> Result<f64, String> {

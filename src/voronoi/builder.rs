@@ -6,7 +6,9 @@ use super::HORIZON;
 use super::clip::{Cell, View};
 use super::diagram::Diagram;
 use super::error::VoronoiError;
+use super::hull::{Hull, Shape};
 use super::measure::{Corner, measure};
+use super::order;
 use super::ray::Ray;
 
 /// Most sites of a diagram, whose cells have fewer than 6 edges a site and 2 on the horizon: offsets are `u32`.
@@ -30,9 +32,15 @@ const MOST_SITES: usize = (u32::MAX / 16) as usize;
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Builder {
+    /// The order of the sites in everything else: an index is in the lower bits.
+    keys: Vec<u64>,
     rays: Vec<Ray>,
-    cosines: Vec<f64>,
-    ring: Vec<u32>,
+    hull: Hull,
+    /// The lowest index of each direction.
+    owners: Vec<u32>,
+    /// A facet of each site, and the index of the site in it.
+    corner_of: Vec<u32>,
+    around: Vec<u32>,
     cell: Cell,
     corners: Vec<Corner>,
     diagram: Diagram,
@@ -91,75 +99,106 @@ impl Builder {
                 return Err(VoronoiError::ZeroSite { index });
             }
         }
+        order::sort(sites, &mut self.keys);
         self.rays.clear();
-        self.rays.extend(sites.iter().map(|&site| Ray::new(site)));
+        self.rays.extend(self.keys.iter().map(|&key| Ray::new(sites[order::index(key)])));
         Ok(())
     }
 
     fn build(&mut self, pole: Option<Ray>) {
-        let Self { rays, cosines, ring, cell, corners, diagram } = self;
-        ring.resize(rays.len(), 0);
-        diagram.reset(pole.map(|pole| pole.unit));
-        for (i, site) in rays.iter().enumerate() {
-            let view = View { index: i, site, rays, pole: pole.as_ref() };
-            cell.reset();
-            cosines.clear();
-            cosines.extend(rays.iter().map(|ray| ray.unit.dot(site.unit)));
-            let owner = carve(&view, cell, cosines, ring);
-            if owner != i {
-                cell.empty = true;
+        let shape = self.hull.build(&self.rays);
+        self.name_owners();
+        self.diagram.reset(pole.map(|pole| pole.unit), self.rays.len());
+        for (k, ray) in self.rays.iter().enumerate() {
+            let owner = self.owners[self.hull.same[k] as usize];
+            self.diagram.set_site(order::index(self.keys[k]), ray.unit, owner);
+        }
+        match shape {
+            Shape::Point => {
+                self.around.clear();
+                self.add_cell(0, pole.as_ref());
             }
-            let (solid_angle, vector_moment) = measure(&view, cell, corners);
-            diagram.push(site.unit, owner, solid_angle, vector_moment);
-            if !cell.empty {
-                diagram.push_outline(cell.edges.iter().map(|edge| edge.id), corners.iter().map(|corner| corner.unit));
+            Shape::Circle => {
+                let count = self.hull.ring.len();
+                for k in 0..count {
+                    let ring = &self.hull.ring;
+                    let (before, after) = (ring[if k == 0 { count - 1 } else { k - 1 }], ring[(k + 1) % count]);
+                    self.around.clear();
+                    self.around.push(before);
+                    if count > 2 {
+                        self.around.push(after);
+                    }
+                    self.add_cell(self.hull.ring[k], pole.as_ref());
+                }
+            }
+            Shape::Solid => {
+                self.find_corners();
+                for site in 0..self.rays.len() as u32 {
+                    if self.hull.same[site as usize] == site {
+                        self.walk_around(site);
+                        self.add_cell(site, pole.as_ref());
+                    }
+                }
             }
         }
-        diagram.name_owners();
     }
-}
 
-/// Cuts `cell` with the horizon and the bisectors of all other sites; returns the lowest index with its direction.
-///
-/// Near sites first, in rings each four times as large as the one before, until no site is left that reaches the cell.
-fn carve(view: &View<'_>, cell: &mut Cell, cosines: &[f64], ring: &mut [u32]) -> usize {
-    if view.pole.is_some() {
-        cell.cut(view, HORIZON);
+    fn name_owners(&mut self) {
+        self.owners.clear();
+        self.owners.resize(self.rays.len(), u32::MAX);
+        for (&key, &same) in self.keys.iter().zip(&self.hull.same) {
+            let owner = &mut self.owners[same as usize];
+            *owner = (*owner).min(order::index(key) as u32);
+        }
     }
-    let mut owner = view.index;
-    let mut outer = f64::INFINITY;
-    let mut width = FIRST_RING / cosines.len() as f64;
-    while outer >= cell.reach() && !cell.empty {
-        let inner = if width < 2.0 { 1.0 - width } else { f64::NEG_INFINITY };
-        for &j in within(cosines, inner.max(cell.reach()), outer, ring) {
-            let (index, cosine) = (j as usize, cosines[j as usize]);
-            if cosine > NEAR && view.site.is_along(&view.rays[index]) {
-                owner = owner.min(index);
-            } else if cosine >= cell.reach() && !cell.empty {
-                cell.cut(view, j);
+
+    fn find_corners(&mut self) {
+        self.corner_of.clear();
+        self.corner_of.resize(self.rays.len(), u32::MAX);
+        for (f, facet) in self.hull.facets.iter().enumerate() {
+            for (k, &site) in facet.sites.iter().enumerate() {
+                self.corner_of[site as usize] = (4 * f + k) as u32;
             }
         }
-        outer = inner;
-        width *= 4.0;
     }
-    owner
-}
 
-/// The indices of the cosines from `inner` to below `outer`, in `ring`; without branches, for they would be random.
-fn within<'a>(cosines: &[f64], inner: f64, outer: f64, ring: &'a mut [u32]) -> &'a [u32] {
-    let mut count = 0;
-    for (j, &cosine) in cosines.iter().enumerate() {
-        ring[count] = j as u32;
-        count += usize::from((cosine >= inner) & (cosine < outer));
+    /// Sets `around` to the neighbours of `site` across edges of positive length.
+    fn walk_around(&mut self, site: u32) {
+        self.around.clear();
+        let start = self.corner_of[site as usize];
+        let mut corner = start;
+        loop {
+            // The site after the next one is across the edge to the next corner.
+            let edge = (corner & !3) + ((corner & 3) + 1) % 3;
+            corner = self.hull.turn(corner);
+            if !self.hull.is_flat(&self.rays, edge) {
+                let facet = &self.hull.facets[(corner >> 2) as usize];
+                self.around.push(facet.sites[((corner & 3) as usize + 1) % 3]);
+            }
+            if corner == start {
+                return;
+            }
+        }
     }
-    &ring[..count]
+
+    /// Adds the cell of `site` with the neighbours `around`.
+    fn add_cell(&mut self, site: u32, pole: Option<&Ray>) {
+        let Self { rays, owners, cell, corners, diagram, around, .. } = self;
+        let view = View { site: &rays[site as usize], rays, pole };
+        match pole {
+            None => cell.set_outline(&view, around),
+            Some(_) => cell.cut_with_horizon(&view, around),
+        }
+        let (solid_angle, vector_moment) = measure(&view, cell, corners);
+        let index = owners[site as usize] as usize;
+        diagram.set_measure(index, solid_angle, vector_moment);
+        if !cell.empty {
+            let name = |id: u32| if id == HORIZON { HORIZON } else { owners[id as usize] };
+            let corners = corners.iter().map(|corner| corner.unit);
+            diagram.push_outline(index, cell.edges.iter().map(|edge| name(edge.id)), corners);
+        }
+    }
 }
-
-/// 1 − cosine of the first ring, times the number of sites: a handful of sites if they are even.
-const FIRST_RING: f64 = 8.0;
-
-/// Sites of smaller cosine cannot have the same direction.
-const NEAR: f64 = 1.0 - 1.0 / (1u64 << 40) as f64;
 
 #[cfg(test)]
 mod tests {
@@ -170,7 +209,7 @@ mod tests {
         fn of<T>(buffer: &Vec<T>) -> (usize, usize) {
             (buffer.as_ptr() as usize, buffer.capacity())
         }
-        [of(&builder.rays), of(&builder.cosines), of(&builder.ring), of(&builder.corners), of(&builder.cell.sides)]
+        [of(&builder.rays), of(&builder.keys), of(&builder.around), of(&builder.corners), of(&builder.cell.sides)]
     }
 
     #[test]

@@ -12,23 +12,19 @@
 
 use glam::DVec3;
 
-use super::predicate::{DOUBLE_BOUND, Plane, orientation};
+use super::predicate::{AXES, DOUBLE_BOUND, Plane, orientation};
 use super::ray::Ray;
 use super::{HORIZON, twofold::Twofold3};
 
-/// Corners whose sine is below this have no trusted double for `reach`.
-const SMALLEST_SINE: f64 = 1.0 / 1024.0;
+/// Planes whose normals' sine is above the root of this are two planes.
+const SMALLEST_SQUARE: f64 = 1.0 / 1024.0;
 
 /// From π/2 to below 2⁻⁵³.
 const BISECTIONS: usize = 54;
 
-/// Slack of `reach`: corners are right to 16 u / `SMALLEST_SINE` < 2⁻³⁸, and cos 2ρ changes by at most four times that.
-const REACH_SLACK: f64 = 1.0 / (1u64 << 35) as f64;
-
 /// The rays of a diagram, seen from one of its sites.
 #[derive(Clone, Copy)]
 pub(super) struct View<'a> {
-    pub index: usize,
     pub site: &'a Ray,
     pub rays: &'a [Ray],
     pub pole: Option<&'a Ray>,
@@ -104,6 +100,11 @@ impl<'a> View<'a> {
         }
     }
 
+    /// An edge on the plane of constraint `id`, with no corner yet.
+    fn edge(&self, id: u32) -> Edge {
+        Edge { id, normal: self.unit(self.vector(id), id), start: DVec3::ZERO }
+    }
+
     /// A normal of constraint `id`, at most 2 long and right to 2⁻⁵² but for its length.
     fn vector(&self, id: u32) -> DVec3 {
         match self.plane(id) {
@@ -133,8 +134,6 @@ pub(super) struct Edge {
     pub normal: DVec3,
     /// The normal of the edge before × `normal`: the corner where the edge starts, with the sine as its length.
     pub start: DVec3,
-    /// Cosine of the angle from the site to that corner; −1 where it is not known well.
-    cosine: f64,
 }
 
 /// A cell under the knife.
@@ -143,7 +142,6 @@ pub(super) struct Cell {
     pub edges: Vec<Edge>,
     spare: Vec<Edge>,
     pub(super) sides: Vec<i32>,
-    reach: f64,
     pub empty: bool,
 }
 
@@ -151,15 +149,48 @@ impl Cell {
     /// Back to the whole sphere.
     pub fn reset(&mut self) {
         self.edges.clear();
-        self.reach = -2.0;
         self.empty = false;
     }
 
-    /// A site whose direction has a smaller dot product with the cell's site cannot cut the cell.
-    ///
-    /// If all corners are within ρ < π/2 of the site then so is the cell, and only sites within 2ρ reach it.
-    pub fn reach(&self) -> f64 {
-        self.reach
+    /// The cell of the edges `ids`, counter-clockwise, all of positive length: any number but two of one plane.
+    pub fn set_outline(&mut self, view: &View<'_>, ids: &[u32]) {
+        self.reset();
+        self.edges.extend(ids.iter().map(|&id| view.edge(id)));
+        let n = self.edges.len();
+        if n > 1 {
+            self.set_corner(n - 1, 0);
+            for k in 1..n {
+                self.set_corner(k - 1, k);
+            }
+        }
+    }
+
+    /// Cuts the whole cell of a site with the horizon; an edge along the horizon becomes one of the horizon.
+    pub fn cut_with_horizon(&mut self, view: &View<'_>, ids: &[u32]) {
+        if ids.len() < 3 {
+            self.reset();
+            self.cut(view, HORIZON);
+            for &id in ids {
+                if !self.empty {
+                    self.cut(view, id);
+                }
+            }
+            return;
+        }
+        self.set_outline(view, ids);
+        self.cut_polygon(view, view.edge(HORIZON));
+        let n = self.edges.len();
+        if self.empty || self.sides.iter().any(|&side| side < 0) {
+            return;
+        }
+        for k in 0..n {
+            let end = if k + 1 == n { 0 } else { k + 1 };
+            if self.sides[k] == 0 && self.sides[end] == 0 {
+                self.edges[k] = view.edge(HORIZON);
+                self.set_corner(if k == 0 { n - 1 } else { k - 1 }, k);
+                self.set_corner(k, end);
+            }
+        }
     }
 
     /// Cuts the cell with the plane of `id`.
@@ -169,7 +200,7 @@ impl Cell {
         if self.edges.len() > 2 && self.edges.iter().all(|edge| edge.start.dot(vector) > 2.0 * DOUBLE_BOUND) {
             return;
         }
-        let edge = Edge { id, normal: view.unit(vector, id), start: DVec3::ZERO, cosine: -1.0 };
+        let edge = view.edge(id);
         match *self.edges.as_slice() {
             [] => self.edges.push(edge),
             [first] => self.cut_hemisphere(view, first, edge),
@@ -180,21 +211,21 @@ impl Cell {
 
     /// Two planes make a lune, unless they are the same one: the horizon and a bisector, or two sites of one direction.
     fn cut_hemisphere(&mut self, view: &View<'_>, first: Edge, edge: Edge) {
-        if first.normal.cross(edge.normal).length_squared() < SMALLEST_SINE {
+        if first.normal.cross(edge.normal).length_squared() < SMALLEST_SQUARE {
             let (a, c) = (view.plane(first.id), view.plane(edge.id));
             if AXES.iter().all(|axis| orientation(view.site, a, c, Plane::Normal(axis)) == 0) {
                 self.empty = first.normal.dot(edge.normal) < 0.0;
                 return;
             }
         }
-        self.rebuild(view, &[first], edge);
+        self.rebuild(&[first], edge);
     }
 
     fn cut_lune(&mut self, view: &View<'_>, first: Edge, second: Edge, edge: Edge) {
         let (a, b, c) = (view.plane(first.id), view.plane(second.id), view.plane(edge.id));
         match view.side(second.start, edge.normal, [first.id, second.id, edge.id]) {
-            1 => self.rebuild(view, &[first, second], edge),
-            -1 => self.rebuild(view, &[second, first], edge),
+            1 => self.rebuild(&[first, second], edge),
+            -1 => self.rebuild(&[second, first], edge),
             _ => {
                 // All three planes contain the corners ±(a × b): a cut through the middle of both edges, or none.
                 // The sides of these middles are the signs of (a × c)·(a × b) and (c × b)·(a × b). All these products
@@ -205,8 +236,8 @@ impl Cell {
                 let at_second = up * orientation(view.site, c, b, axis);
                 match (at_first >= 0, at_second >= 0) {
                     (true, true) => {}
-                    (true, false) if at_first > 0 => self.rebuild(view, &[first], edge),
-                    (false, true) if at_second > 0 => self.rebuild(view, &[second], edge),
+                    (true, false) if at_first > 0 => self.rebuild(&[first], edge),
+                    (false, true) if at_second > 0 => self.rebuild(&[second], edge),
                     _ => self.empty = true,
                 }
             }
@@ -244,37 +275,25 @@ impl Cell {
             k = if k + 1 == n { 0 } else { k + 1 };
         }
         self.spare = core::mem::replace(&mut self.edges, kept);
-        self.close(view, edge);
+        self.close(edge);
     }
 
     /// Puts `edge` after the others; its two corners are new.
-    fn close(&mut self, view: &View<'_>, edge: Edge) {
+    fn close(&mut self, edge: Edge) {
         self.edges.push(edge);
         let n = self.edges.len();
-        self.set_corner(view, n - 2, n - 1);
-        self.set_corner(view, n - 1, 0);
-        let lowest = self.edges.iter().fold(1.0, |lowest: f64, edge| lowest.min(edge.cosine));
-        self.reach = if n < 3 || lowest <= 0.0 { -2.0 } else { 2.0 * lowest * lowest - 1.0 - REACH_SLACK };
+        self.set_corner(n - 2, n - 1);
+        self.set_corner(n - 1, 0);
     }
 
     /// The cell of the edges `kept` and then `edge`.
-    fn rebuild(&mut self, view: &View<'_>, kept: &[Edge], edge: Edge) {
+    fn rebuild(&mut self, kept: &[Edge], edge: Edge) {
         self.edges.clear();
         self.edges.extend_from_slice(kept);
-        self.close(view, edge);
+        self.close(edge);
     }
 
-    fn set_corner(&mut self, view: &View<'_>, before: usize, at: usize) {
-        let start = self.edges[before].normal.cross(self.edges[at].normal);
-        let sine = start.length();
-        self.edges[at].start = start;
-        self.edges[at].cosine = if sine > SMALLEST_SINE { start.dot(view.site.unit) / sine } else { -1.0 };
+    fn set_corner(&mut self, before: usize, at: usize) {
+        self.edges[at].start = self.edges[before].normal.cross(self.edges[at].normal);
     }
-}
-
-/// The coordinate axes as rays.
-const AXES: [Ray; 3] = [axis(DVec3::X), axis(DVec3::Y), axis(DVec3::Z)];
-
-const fn axis(unit: DVec3) -> Ray {
-    Ray { exact: unit, unit, rest: DVec3::ZERO }
 }

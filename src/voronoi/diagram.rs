@@ -16,11 +16,18 @@ pub struct Diagram {
     owners: Vec<u32>,
     solid_angles: Vec<f64>,
     vector_moments: Vec<DVec3>,
-    /// Cell i has the entries from `neighbor_ends[i − 1]` to `neighbor_ends[i]`, and so on.
-    neighbor_ends: Vec<u32>,
+    outlines: Vec<Outline>,
     neighbors: Vec<u32>,
-    vertex_ends: Vec<u32>,
     vertices: Vec<DVec3>,
+}
+
+/// Where the edges and corners of a cell are in the arrays of all.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Outline {
+    edges: u32,
+    corners: u32,
+    edge_count: u32,
+    corner_count: u32,
 }
 
 /// The cell of a site.
@@ -76,47 +83,48 @@ impl Diagram {
         &self.sites
     }
 
-    pub(super) fn reset(&mut self, pole: Option<DVec3>) {
+    /// Makes room for the cells of `len` sites, all empty.
+    pub(super) fn reset(&mut self, pole: Option<DVec3>, len: usize) {
+        fn blank<T: Clone + Default>(values: &mut Vec<T>, len: usize) {
+            values.clear();
+            values.resize(len, T::default());
+        }
         self.pole = pole;
-        self.sites.clear();
-        self.owners.clear();
-        self.solid_angles.clear();
-        self.vector_moments.clear();
-        self.neighbor_ends.clear();
+        blank(&mut self.sites, len);
+        blank(&mut self.owners, len);
+        blank(&mut self.solid_angles, len);
+        blank(&mut self.vector_moments, len);
+        blank(&mut self.outlines, len);
         self.neighbors.clear();
-        self.vertex_ends.clear();
         self.vertices.clear();
     }
 
-    /// Adds a cell that has no outline yet.
-    pub(super) fn push(&mut self, site: DVec3, owner: usize, solid_angle: f64, vector_moment: DVec3) {
-        self.sites.push(site);
-        self.owners.push(owner as u32);
-        self.solid_angles.push(solid_angle);
-        self.vector_moments.push(vector_moment);
-        self.neighbor_ends.push(self.neighbors.len() as u32);
-        self.vertex_ends.push(self.vertices.len() as u32);
+    pub(super) fn set_site(&mut self, index: usize, direction: DVec3, owner: u32) {
+        self.sites[index] = direction;
+        self.owners[index] = owner;
     }
 
-    /// Gives the last cell its outline.
-    pub(super) fn push_outline(&mut self, neighbors: impl Iterator<Item = u32>, vertices: impl Iterator<Item = DVec3>) {
+    pub(super) fn set_measure(&mut self, index: usize, solid_angle: f64, vector_moment: DVec3) {
+        self.solid_angles[index] = solid_angle;
+        self.vector_moments[index] = vector_moment;
+    }
+
+    /// Gives a cell its outline, after those of all cells before.
+    pub(super) fn push_outline(
+        &mut self,
+        index: usize,
+        neighbors: impl Iterator<Item = u32>,
+        vertices: impl Iterator<Item = DVec3>,
+    ) {
+        let (edges, corners) = (self.neighbors.len() as u32, self.vertices.len() as u32);
         self.neighbors.extend(neighbors);
         self.vertices.extend(vertices);
-        if let Some(end) = self.neighbor_ends.last_mut() {
-            *end = self.neighbors.len() as u32;
-        }
-        if let Some(end) = self.vertex_ends.last_mut() {
-            *end = self.vertices.len() as u32;
-        }
-    }
-
-    /// Replaces neighbours by the owners of their cells, once all are known.
-    pub(super) fn name_owners(&mut self) {
-        for neighbor in &mut self.neighbors {
-            if *neighbor != HORIZON {
-                *neighbor = self.owners[*neighbor as usize];
-            }
-        }
+        self.outlines[index] = Outline {
+            edges,
+            corners,
+            edge_count: self.neighbors.len() as u32 - edges,
+            corner_count: self.vertices.len() as u32 - corners,
+        };
     }
 }
 
@@ -161,34 +169,30 @@ impl<'a> Cell<'a> {
     ///
     /// [`CORNER_ERROR`](super::CORNER_ERROR).
     pub fn vertices(&self) -> &'a [DVec3] {
-        part(&self.diagram.vertices, &self.diagram.vertex_ends, self.index)
+        let outline = self.diagram.outlines[self.index];
+        &self.diagram.vertices[outline.corners as usize..][..outline.corner_count as usize]
     }
 
     /// The sites across the edges, in the same order, as owners of their cells; [`HORIZON`] across the horizon.
     ///
     /// A hemisphere has one edge though no corner.
     pub fn neighbors(&self) -> &'a [u32] {
-        part(&self.diagram.neighbors, &self.diagram.neighbor_ends, self.index)
+        let outline = self.diagram.outlines[self.index];
+        &self.diagram.neighbors[outline.edges as usize..][..outline.edge_count as usize]
     }
-}
-
-fn part<'a, T>(all: &'a [T], ends: &[u32], index: usize) -> &'a [T] {
-    let start = if index == 0 { 0 } else { ends[index - 1] };
-    &all[start as usize..ends[index] as usize]
 }
 
 #[cfg(test)]
 impl Diagram {
     /// Capacities of the buffers, for the test that a warm builder keeps them.
-    pub(super) fn buffers(&self) -> [usize; 8] {
+    pub(super) fn buffers(&self) -> [usize; 7] {
         [
             self.sites.capacity(),
             self.owners.capacity(),
             self.solid_angles.capacity(),
             self.vector_moments.capacity(),
-            self.neighbor_ends.capacity(),
+            self.outlines.capacity(),
             self.neighbors.capacity(),
-            self.vertex_ends.capacity(),
             self.vertices.capacity(),
         ]
     }

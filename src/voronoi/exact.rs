@@ -123,7 +123,7 @@ impl<const N: usize> Integer<N> {
 pub(super) type Root<const N: usize> = (Integer<N>, Integer<N>);
 
 /// Sign of a√A + b√B.
-fn sign_of_two<const N: usize>((a, aa): &Root<N>, (b, bb): &Root<N>) -> i32 {
+pub(super) fn sign_of_two<const N: usize>((a, aa): &Root<N>, (b, bb): &Root<N>) -> i32 {
     let (s, t) = (a.sign() * aa.sign(), b.sign() * bb.sign());
     if s * t >= 0 {
         return (s + t).signum();

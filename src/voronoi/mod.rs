@@ -42,10 +42,9 @@
 //!
 //! # Implementation
 //!
-//! Each cell by itself is cut from the sphere by half-spaces, near sites first, until no site is left that reaches it:
-//! time grows as n², from about 1 µs a site for some hundreds of sites. Integers decide a hundred to ten thousand times more
-//! slowly than doubles: random sites never need them, lattices and circles do at every corner, and a circle of many sites
-//! takes time as n³.
+//! The corners are the facets of the convex hull of the unit vectors, built site by site in a biased randomised order along
+//! a space-filling curve: expected time grows as n log n. Integers decide where doubles and twofold numbers cannot tell.
+//! Sites on one circle are sorted around it.
 //!
 //! # Not here
 //!
@@ -54,7 +53,7 @@
 //!
 //! # Source
 //!
-//! Brown (1979), Voronoi diagrams from convex hulls; Sutherland and Hodgman (1974), Reentrant polygon clipping; Girard
+//! Brown (1979), Voronoi diagrams from convex hulls; Amenta, Choi and Rote (2003), Incremental constructions con BRIO; Sutherland and Hodgman (1974), Reentrant polygon clipping; Girard
 //! (1626) and Lambert (1760) for the measures.
 
 mod builder;
@@ -62,7 +61,10 @@ mod clip;
 mod diagram;
 mod error;
 mod exact;
+mod hull;
+mod incircle;
 mod measure;
+mod order;
 mod predicate;
 mod ray;
 mod twofold;

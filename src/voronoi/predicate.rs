@@ -8,7 +8,9 @@
 //! # Guarantees
 //! The sign is exact. Three stages: doubles with an error bound, twofold numbers with an error bound, and integers.
 
-use super::exact::{Integer, Root, sign_of_four};
+use glam::DVec3;
+
+use super::exact::{Integer, Root, sign_of_four, sign_of_two};
 use super::ray::{Ray, parts};
 use super::twofold::Twofold3;
 
@@ -134,10 +136,64 @@ fn bracket<const N: usize>(a: &Vector<N>, b: &Vector<N>, c: &Vector<N>) -> Integ
     dot(a, &[minor(1, 2), minor(2, 0), minor(0, 1)])
 }
 
+/// Sign of det(b − a, c − a, q − a) for unit vectors, where it takes small integers only: rays of at most 70 bits, and at
+/// most two different lengths in the sum of `determinant_sign` after equal ones are put together.
+///
+/// Brackets have at most 3·70 + 3 bits and sums of four 215, lengths 2·70 + 2; the square of such a sum times a length
+/// has at most 572, which is 9 digits.
+#[inline(never)]
+pub(super) fn in_circle_by_integers(a: &Ray, b: &Ray, c: &Ray, q: &Ray) -> Option<i32> {
+    if [a, b, c, q].map(bits).iter().any(|&bits| bits > 70) {
+        return None;
+    }
+    let [a, b, c, q] = [a, b, c, q].map(integers::<12>);
+    // det(b − a, c − a, q − a) ~ [bcq]|a| − [acq]|b| + [abq]|c| − [abc]|q|.
+    let terms = [
+        (bracket(&b, &c, &q), dot(&a, &a)),
+        (bracket(&c, &a, &q), dot(&b, &b)),
+        (bracket(&a, &b, &q), dot(&c, &c)),
+        (bracket(&b, &a, &c), dot(&q, &q)),
+    ];
+    let mut sums = [(Integer::<12>::ZERO, Integer::<12>::ZERO); 2];
+    let mut count = 0;
+    for (factor, length) in terms {
+        if factor.sign() == 0 {
+            continue;
+        }
+        if let Some(sum) = sums[..count].iter_mut().find(|sum| sum.1.subtract(&length).sign() == 0) {
+            sum.0 = sum.0.add(&factor);
+        } else if count < 2 {
+            sums[count] = (factor, length);
+            count += 1;
+        } else {
+            return None;
+        }
+    }
+    Some(sign_of_two(&sums[0], &sums[1]))
+}
+
+/// Sign of cos(q, a) − cos(q, b): (q·a)|b| − (q·b)|a|, of numbers with 2B + 2 bits, whose squares and products have 6B + 6.
+pub(super) fn nearer_by_integers(q: &Ray, a: &Ray, b: &Ray) -> i32 {
+    fn sign<const N: usize>(q: &Ray, a: &Ray, b: &Ray) -> i32 {
+        let [q, a, b] = [q, a, b].map(integers::<N>);
+        sign_of_two(&(dot(&q, &a), dot(&b, &b)), &(dot(&q, &b).negate(), dot(&a, &a)))
+    }
+    // Squares are multiplied by lengths digit by digit: one more digit for each factor.
+    match [q, a, b].map(bits).into_iter().max() {
+        Some(0..=70) => sign::<12>(q, a, b),
+        _ => sign::<108>(q, a, b),
+    }
+}
+
+/// The coordinate axes as rays.
+pub(super) static AXES: [Ray; 3] = [axis(DVec3::X), axis(DVec3::Y), axis(DVec3::Z)];
+
+const fn axis(unit: DVec3) -> Ray {
+    Ray { exact: unit, unit, rest: DVec3::ZERO }
+}
+
 #[cfg(test)]
 mod tests {
-    use glam::DVec3;
-
     use super::*;
 
     /// Directions with components −2 … 2, whose determinants are often zero and never tiny.

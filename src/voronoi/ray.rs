@@ -39,6 +39,23 @@ impl Ray {
             && same(a.z, b.x, a.x, b.z)
     }
 
+    /// The unit vector less that of another ray, each component right to 3 u and 2⁻⁹⁹.
+    #[inline]
+    pub fn offset(&self, other: &Self) -> DVec3 {
+        (self.unit - other.unit) + (self.rest - other.rest)
+    }
+
+    /// The unit vector less a vector of doubles, each component right to u of itself and 2⁻⁹⁹.
+    pub fn minus(&self, v: DVec3) -> DVec3 {
+        let difference = Twofold3::from_difference(self.unit, v);
+        difference.hi() + (difference.lo() + self.rest)
+    }
+
+    /// The unit vector less that of another ray to twice the precision, each component right to 2⁻⁹⁹.
+    pub fn twofold_offset(&self, other: &Self) -> Twofold3 {
+        Twofold3::from_difference(self.unit, other.unit).plus_small(self.rest - other.rest)
+    }
+
     /// The unit vector, to twice the precision.
     pub fn twofold_unit(&self) -> Twofold3 {
         Twofold3::from_sum(self.unit, self.rest)

@@ -90,6 +90,17 @@ impl Twofold3 {
         Self { x: Twofold { hi: hi.x, lo: lo.x }, y: Twofold { hi: hi.y, lo: lo.y }, z: Twofold { hi: hi.z, lo: lo.z } }
     }
 
+    /// `a − b`, exactly.
+    pub fn from_difference(a: DVec3, b: DVec3) -> Self {
+        Self { x: sum(a.x, -b.x), y: sum(a.y, -b.y), z: sum(a.z, -b.z) }
+    }
+
+    /// The sum with a vector that is about as small as the low part.
+    pub fn plus_small(self, v: DVec3) -> Self {
+        let plus = |a: Twofold, b: f64| sum(a.hi, a.lo + b);
+        Self { x: plus(self.x, v.x), y: plus(self.y, v.y), z: plus(self.z, v.z) }
+    }
+
     pub fn hi(self) -> DVec3 {
         DVec3::new(self.x.hi, self.y.hi, self.z.hi)
     }

@@ -24,11 +24,14 @@ pub const DISTANCE: f64 = 1e-12;
 /// over 18 000 gathers.
 pub const STANDARD_ERROR_RATIO: &[(&str, f64)] = &[
     ("independent", 1.0),
-    ("fixed 8 x 8", 1.555),
+    ("fixed 8 x 8", 1.33),
     ("fixed 1 x 64", 1.0),
-    ("stratified 208", 1.39),
+    ("stratified 208", 1.21),
     ("paper", 1.31),
-    ("default", 2.21),
+    ("spiral 208", 1.52),
+    ("sequential", 2.16),
+    ("default", 0.97),
+    ("unbiased", 0.91),
 ];
 
 /// Relative slack of the ratios: 1000 gathers determine a standard deviation to about 3 %, and this is five times that.

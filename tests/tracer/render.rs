@@ -3,18 +3,24 @@
 //! Every random number belongs to a pixel, and the pixels that may get a light vector are visited in batches whose size
 //! does not depend on the number of threads: the same seed gives the same bits on one thread and on many.
 
+use std::cell::RefCell;
+
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
 use steradian::{
     glam::DVec3,
-    ilv::{AdaptiveSampler, Cache, Frame, GatherError, LightVector, Validity, luminance},
+    ilv::{AdaptiveSampler, Cache, Frame, GatherError, LightVector, Validity, Workspace, luminance},
 };
 
 use super::{Scene, SceneSource, bounces::Bounces, lattice, seeding};
 
 /// Side of the squares of pixels that search the cache together.
 const TILE: u32 = 8;
+
+thread_local! {
+    static WORKSPACE: RefCell<Workspace> = RefCell::new(Workspace::new());
+}
 
 /// A surface seen through a pixel centre.
 #[derive(Clone, Copy, Debug)]
@@ -173,7 +179,10 @@ impl<'a> Gatherer<'a> {
         let mut source = SceneSource::new(self.view.scene, surface.position, self.settings.light_grid)
             .after(&self.bounces, self.settings.bounces - 1);
         let mut rng = Pcg64::seed_from_u64(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ pixel as u64);
-        sampler.gather(frame, &mut source, &mut rng).map(|gather| *gather.vector())
+        WORKSPACE.with_borrow_mut(|workspace| {
+            let gather = sampler.gather_with(workspace, frame, &mut source, |_| DVec3::ONE, &mut rng)?;
+            Ok(*gather.vector())
+        })
     }
 }
 

@@ -1,0 +1,95 @@
+//! The decisions that build a hull: which side of a facet, which of two sites is nearer, what comes next on a circle.
+//!
+//! # Guarantees
+//! All are exact: doubles or twofold numbers with a bound of their error, then integers.
+
+use core::cmp::Ordering;
+
+use glam::DVec3;
+
+use super::predicate::{AXES, Plane, in_circle_by_integers, nearer_by_integers, orientation};
+use super::ray::Ray;
+use super::twofold::Twofold3;
+
+/// Bound of the error of a determinant of twofold differences of unit vectors, over the sum of the products of two of
+/// their sizes: components are right to 2⁻⁹⁹, which makes 6·2⁻⁹⁹, and arithmetic adds less than 2⁻⁹⁵; rounded up.
+const DIFFERENCES: f64 = 1.0 / (1u128 << 92) as f64;
+
+/// Below this, products may have underflowed.
+const SMALLEST: f64 = 1e-200;
+
+/// Sign of det(b − a, c − a, q − a) for the unit vectors of four distinct rays: 1 if q is beyond the plane through a, b, c
+/// seen counter-clockwise.
+#[inline(never)]
+pub(super) fn in_circle(a: &Ray, b: &Ray, c: &Ray, q: &Ray) -> i32 {
+    let [d, e, f] = [b, c, q].map(|ray| ray.twofold_offset(a));
+    let size = |v: Twofold3| v.hi().abs().max_element();
+    let (s, t, r) = (size(d), size(e), size(f));
+    let bound = DIFFERENCES * (s * t + t * r + r * s);
+    let estimate = d.cross(e).dot(f).hi;
+    if bound > SMALLEST && estimate.abs() > bound {
+        return if estimate > 0.0 { 1 } else { -1 };
+    }
+    if let Some(sign) = in_circle_by_integers(a, b, c, q) {
+        return sign;
+    }
+    -orientation(a, Plane::Bisector(b), Plane::Bisector(c), Plane::Bisector(q))
+}
+
+/// Whether `a` is strictly nearer to `q` than `b` is.
+pub(super) fn nearer(q: &Ray, a: &Ray, b: &Ray) -> bool {
+    let offset = a.offset(b);
+    let estimate = offset.dot(q.unit);
+    let size = offset.abs();
+    // 3 u from the offset, 4 u from the dot product, u from the unit vector; 2⁻⁹⁹ from the rests.
+    if estimate.abs() > NEARER * (size.x + size.y + size.z) + DIFFERENCES {
+        return estimate > 0.0;
+    }
+    nearer_by_integers(q, a, b) > 0
+}
+
+/// 8 u.
+const NEARER: f64 = 8.0 / 9_007_199_254_740_992.0;
+
+/// The order of rays on one circle, from one of them all around.
+pub(super) struct Turn<'a> {
+    origin: &'a Ray,
+    axis: &'static Ray,
+    positive: i32,
+}
+
+impl<'a> Turn<'a> {
+    /// Three distinct rays give the circle and the direction.
+    pub fn new(origin: &'a Ray, second: &Ray, third: &Ray) -> Self {
+        let normal = second.offset(origin).cross(third.offset(origin)).abs();
+        let mut axes = [(normal.x, &AXES[0]), (normal.y, &AXES[1]), (normal.z, &AXES[2])];
+        axes.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let signed = axes.map(|(_, axis)| (axis, side(origin, second, third, axis)));
+        let &(axis, positive) = signed.iter().find(|&&(_, sign)| sign != 0).unwrap_or(&signed[0]);
+        Self { origin, axis, positive }
+    }
+
+    /// The order of two rays other than the origin; equal only where they are the same direction.
+    pub fn compare(&self, p: &Ray, q: &Ray) -> Ordering {
+        0.cmp(&(self.positive * side(self.origin, p, q, self.axis)))
+    }
+}
+
+/// Sign of the component along `axis` of (p − o) × (q − o).
+fn side(o: &Ray, p: &Ray, q: &Ray, axis: &Ray) -> i32 {
+    let (d, e) = (p.offset(o), q.offset(o));
+    let estimate = d.cross(e).dot(axis.exact);
+    let size = |v: DVec3| v.abs().max_element();
+    // Offsets are right to 3 u, the product to 3 u more, of two terms.
+    let bound = TURN * size(d) * size(e);
+    if bound > SMALLEST && size(d).min(size(e)) > SMALLEST_OFFSET && estimate.abs() > bound {
+        return if estimate > 0.0 { 1 } else { -1 };
+    }
+    orientation(o, Plane::Bisector(p), Plane::Bisector(q), Plane::Normal(axis))
+}
+
+/// 24 u.
+const TURN: f64 = 24.0 / 9_007_199_254_740_992.0;
+
+/// 2⁻⁴⁰: beyond, the error of the rests, 2⁻⁹⁹, is below 2⁻⁵⁹ of an offset.
+const SMALLEST_OFFSET: f64 = 1.0 / (1u64 << 40) as f64;
