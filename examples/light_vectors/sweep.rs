@@ -68,9 +68,15 @@ pub fn run(options: &Options) -> Result<(), JobError> {
         draw(&path, scene.name, options.size, &curves).map_err(|error| JobError::Plot(error.to_string()))?;
         let of_scene: Vec<Row> = rows.iter().filter(|row: &&Row| row.scene == scene.name).cloned().collect();
         writeln!(io::stdout(), "{}\n{}", scene.name, table::text(&of_scene))?;
-        for (method, curve) in &curves {
-            if let Some(seconds) = time_to(curve, 0.07) {
-                writeln!(io::stdout(), "{:<10} {method:<11} 7 % after {seconds:.3} CPU s", scene.name)?;
+        for error in [0.07, 0.03] {
+            for (&name, (method, curve)) in options.method.iter().zip(&curves) {
+                let extrapolated = name == MethodName::Brute && curve.last().is_some_and(|last| last.2 > error);
+                let seconds = if extrapolated { by_more_rays(curve, error) } else { time_to(curve, error) };
+                if let Some(seconds) = seconds {
+                    let note = if extrapolated { ", extrapolated" } else { "" };
+                    let (scene, percent) = (scene.name, 100.0 * error);
+                    writeln!(io::stdout(), "{scene:<10} {method:<11} {percent} % after {seconds:.3} CPU s{note}")?;
+                }
             }
         }
     }
@@ -102,6 +108,11 @@ fn time_to(curve: &[Point], error: f64) -> Option<f64> {
     });
     // The fastest setting may be good enough already.
     curve.first().filter(|point| point.2 < error).map(|point| point.0).or(crossing)
+}
+
+/// CPU seconds of independent rays, whose error falls with the square root of their number.
+fn by_more_rays(curve: &[Point], error: f64) -> Option<f64> {
+    curve.last().map(|last| last.0 * (last.2 / error).powi(2))
 }
 
 fn draw(
