@@ -107,10 +107,10 @@ pub const PIPELINE: &[PipelineError] = &[
     PipelineError {
         scene: "cornell",
         method: "default",
-        rmse: (0.10527, 0.00340),
-        bias: (0.02013, 0.00442),
-        light_vectors: (366.9, 0.5),
-        rays: (276.7, 3.8),
+        rmse: (0.09408, 0.00283),
+        bias: (0.00978, 0.00239),
+        light_vectors: (367.4, 0.6),
+        rays: (243.3, 1.9),
     },
     PipelineError {
         scene: "corridor",
@@ -147,10 +147,10 @@ pub const PIPELINE: &[PipelineError] = &[
     PipelineError {
         scene: "corridor",
         method: "default",
-        rmse: (0.11712, 0.00673),
-        bias: (0.01123, 0.00786),
-        light_vectors: (190.9, 0.7),
-        rays: (254.2, 5.6),
+        rmse: (0.10027, 0.00285),
+        bias: (-0.00091, 0.00322),
+        light_vectors: (191.7, 0.5),
+        rays: (228.2, 3.6),
     },
 ];
 
