@@ -36,7 +36,7 @@ impl Reference {
         let bounced = if bounces == 1 { String::new() } else { format!("_{bounces}_bounces") };
         let path = folder.join(format!("reference_{}_{}_{rays}{bounced}.csv", view.scene.name, view.size));
         // Of the reflections before the last, the light changes little from place to place.
-        let earlier = (AdaptiveSampler::stratified(1024)?, Validity::for_scene(0.25, view.scene.size)?);
+        let earlier = (AdaptiveSampler::stratified(512)?, Validity::for_scene(0.5, view.scene.size)?);
         let settings = SEEDS.map(|seed| Settings {
             bounces: bounces as usize,
             earlier,

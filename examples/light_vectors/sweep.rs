@@ -75,7 +75,7 @@ pub fn run(options: &Options) -> Result<(), JobError> {
                 if let Some(seconds) = seconds {
                     let note = if extrapolated { ", extrapolated" } else { "" };
                     let (scene, percent) = (scene.name, 100.0 * error);
-                    writeln!(io::stdout(), "{scene:<10} {method:<11} {percent} % after {seconds:.3} CPU s{note}")?;
+                    writeln!(io::stdout(), "{scene:<10} {method:<11} {percent:.0} % after {seconds:.3} CPU s{note}")?;
                 }
             }
         }
@@ -145,6 +145,8 @@ fn draw(
         chart
             .configure_mesh()
             .light_line_style(RGBColor(235, 235, 235))
+            .x_labels(20)
+            .y_labels(20)
             .x_desc(what)
             .y_desc("RMSE / mean")
             .x_label_formatter(&|x| if *x >= 1e3 { format!("{x:.0e}") } else { format!("{x}") })

@@ -4,11 +4,13 @@ use glam::DVec3;
 
 use super::HORIZON;
 use super::clip::{Cell, View};
+use super::corner::{ABOVE, BELOW, Class, FacetCorner, SPECIAL};
 use super::diagram::Diagram;
 use super::error::VoronoiError;
 use super::hull::{Hull, Shape};
 use super::measure::{Corner, measure};
 use super::order;
+use super::ordinary::{Side, Sum};
 use super::ray::Ray;
 
 /// Most sites of a diagram, whose cells have fewer than 6 edges a site and 2 on the horizon: offsets are `u32`.
@@ -41,6 +43,10 @@ pub struct Builder {
     /// A facet of each site, and the index of the site in it.
     corner_of: Vec<u32>,
     around: Vec<u32>,
+    /// The corners of facets, and of each site their classes and what it gathers of its edges.
+    facet_corners: Vec<FacetCorner>,
+    classes: Vec<Class>,
+    sums: Vec<Sum>,
     cell: Cell,
     corners: Vec<Corner>,
     diagram: Diagram,
@@ -132,13 +138,26 @@ impl Builder {
                 }
             }
             Shape::Solid => {
-                self.find_corners();
+                self.set_corners(pole.as_ref());
+                self.add_edges();
                 for site in 0..self.rays.len() as u32 {
                     if self.hull.same[site as usize] == site {
-                        self.walk_around(site);
-                        self.add_cell(site, pole.as_ref());
+                        self.add_hull_cell(site, pole.as_ref());
                     }
                 }
+            }
+        }
+    }
+
+    fn add_hull_cell(&mut self, site: u32, pole: Option<&Ray>) {
+        let class = self.classes[site as usize];
+        match class {
+            ABOVE => self.add_ordinary_cell(site),
+            BELOW => {}
+            ABOVE_AND_BELOW if self.add_clipped_cell(site, pole) => {}
+            _ => {
+                self.walk_around(site);
+                self.add_cell(site, pole);
             }
         }
     }
@@ -152,33 +171,146 @@ impl Builder {
         }
     }
 
-    fn find_corners(&mut self) {
-        self.corner_of.clear();
-        self.corner_of.resize(self.rays.len(), u32::MAX);
-        for (f, facet) in self.hull.facets.iter().enumerate() {
+    fn set_corners(&mut self, pole: Option<&Ray>) {
+        let Self { hull, rays, corner_of, facet_corners, classes, sums, .. } = self;
+        corner_of.clear();
+        corner_of.resize(rays.len(), u32::MAX);
+        classes.clear();
+        classes.resize(rays.len(), 0);
+        sums.clear();
+        sums.resize(rays.len(), Sum::default());
+        facet_corners.clear();
+        let pole = pole.map(|pole| pole.unit);
+        for (f, facet) in hull.facets.iter_mut().enumerate() {
+            facet.mark = 0;
+            let [a, b, c] = facet.sites.map(|site| &rays[site as usize]);
+            let corner = FacetCorner::new(a, b, c, pole);
             for (k, &site) in facet.sites.iter().enumerate() {
-                self.corner_of[site as usize] = (4 * f + k) as u32;
+                corner_of[site as usize] = (4 * f + k) as u32;
+                classes[site as usize] |= corner.class;
+            }
+            facet_corners.push(corner);
+        }
+    }
+
+    /// Finds the edges that have no length, and adds the others between ordinary corners to both cells.
+    fn add_edges(&mut self) {
+        let Self { hull, rays, facet_corners, sums, .. } = self;
+        for f in 0..hull.facets.len() {
+            let facet = hull.facets[f];
+            let start = facet_corners[f];
+            for k in 0..3 {
+                let (g, h) = ((facet.across[k] >> 2) as usize, facet.across[k] & 3);
+                if g < f {
+                    continue;
+                }
+                let end = &facet_corners[g];
+                let (left, right) = (facet.sites[(k + 2) % 3] as usize, facet.sites[(k + 1) % 3] as usize);
+                let mut has_length = false;
+                if (start.class | end.class) & SPECIAL == 0 {
+                    let site = &rays[left];
+                    let (d, e) = (start.offset(site), end.offset(site));
+                    has_length = (e - d).length_squared() > SURE_LENGTH * SURE_LENGTH * d.length_squared();
+                    if start.class & end.class == ABOVE {
+                        let side = Side::new(site.unit, start.unit, d, e);
+                        sums[left].add(&side);
+                        sums[right].add_reverse(&side, site.offset(&rays[right]));
+                    }
+                }
+                if !has_length && hull.is_flat(rays, (4 * f + k) as u32) {
+                    hull.facets[f].mark |= 1 << k;
+                    hull.facets[g].mark |= 1 << h;
+                }
             }
         }
+    }
+
+    /// Calls `visit` with (edge has a length, facet before, facet after, neighbour) for the edges of the cell of `site`.
+    #[inline(always)]
+    fn each_edge(hull: &Hull, start: u32, mut visit: impl FnMut(bool, usize, usize, u32)) {
+        let mut corner = start;
+        loop {
+            // The site after the next one is across the edge to the next corner.
+            let facet = &hull.facets[(corner >> 2) as usize];
+            let k = corner & 3;
+            let (first, second) = NEXT[k as usize];
+            let across = facet.across[first as usize];
+            let before = (corner >> 2) as usize;
+            corner = if across & 3 == 2 { across - 2 } else { across + 1 };
+            visit(facet.mark >> first & 1 == 0, before, (across >> 2) as usize, facet.sites[second as usize]);
+            if corner == start {
+                return;
+            }
+        }
+    }
+
+    fn add_ordinary_cell(&mut self, site: u32) {
+        let Self { hull, owners, corner_of, facet_corners, diagram, sums, .. } = self;
+        let index = owners[site as usize] as usize;
+        let sum = &sums[site as usize];
+        diagram.set_measure(index, sum.solid_angle(), sum.vector_moment());
+        let outline = diagram.start_outline();
+        Self::each_edge(hull, corner_of[site as usize], |has_length, before, _, neighbor| {
+            if has_length {
+                diagram.push_edge(owners[neighbor as usize], facet_corners[before].unit);
+            }
+        });
+        diagram.end_outline(index, outline);
+    }
+
+    /// Adds a cell of ordinary corners on both sides of the horizon, unless it is too narrow.
+    fn add_clipped_cell(&mut self, site: u32, pole: Option<&Ray>) -> bool {
+        let Self { hull, rays, owners, corner_of, facet_corners, diagram, sums, .. } = self;
+        let (Some(pole), ray) = (pole, &rays[site as usize]) else { return false };
+        let index = owners[site as usize] as usize;
+        let mut sum = sums[site as usize];
+        let outline = diagram.start_outline();
+        let mut gap = [DVec3::ZERO; 2];
+        Self::each_edge(hull, corner_of[site as usize], |has_length, before, after, neighbor| {
+            let (start, end) = (&facet_corners[before], &facet_corners[after]);
+            let owner = owners[neighbor as usize];
+            match (start.class, end.class) {
+                (ABOVE, ABOVE) => {
+                    if has_length {
+                        diagram.push_edge(owner, start.unit);
+                    }
+                }
+                (ABOVE, _) => {
+                    let exit = crossing(start.unit, end.unit, pole.unit);
+                    diagram.push_edge(owner, start.unit);
+                    diagram.push_edge(HORIZON, exit);
+                    gap[0] = exit;
+                    sum.add(&Side::new(ray.unit, start.unit, start.offset(ray), exit - ray.unit));
+                }
+                (_, ABOVE) => {
+                    let entry = crossing(end.unit, start.unit, pole.unit);
+                    diagram.push_edge(owner, entry);
+                    gap[1] = entry;
+                    sum.add(&Side::new(ray.unit, entry, entry - ray.unit, end.offset(ray)));
+                }
+                _ => {}
+            }
+        });
+        let [exit, entry] = gap;
+        sum.add(&Side::new(ray.unit, exit, exit - ray.unit, entry - ray.unit));
+        let solid_angle = sum.solid_angle();
+        if solid_angle < NARROW * NARROW {
+            diagram.drop_outline(outline);
+            return false;
+        }
+        diagram.end_outline(index, outline);
+        diagram.set_measure(index, solid_angle, sum.vector_moment());
+        true
     }
 
     /// Sets `around` to the neighbours of `site` across edges of positive length.
     fn walk_around(&mut self, site: u32) {
         self.around.clear();
-        let start = self.corner_of[site as usize];
-        let mut corner = start;
-        loop {
-            // The site after the next one is across the edge to the next corner.
-            let edge = (corner & !3) + ((corner & 3) + 1) % 3;
-            corner = self.hull.turn(corner);
-            if !self.hull.is_flat(&self.rays, edge) {
-                let facet = &self.hull.facets[(corner >> 2) as usize];
-                self.around.push(facet.sites[((corner & 3) as usize + 1) % 3]);
+        Self::each_edge(&self.hull, self.corner_of[site as usize], |has_length, _, _, neighbor| {
+            if has_length {
+                self.around.push(neighbor);
             }
-            if corner == start {
-                return;
-            }
-        }
+        });
     }
 
     /// Adds the cell of `site` with the neighbours `around`.
@@ -199,6 +331,23 @@ impl Builder {
         }
     }
 }
+
+/// Where the edge between a corner above and one below meets the horizon.
+fn crossing(above: DVec3, below: DVec3, pole: DVec3) -> DVec3 {
+    let point = above * -below.dot(pole) + below * above.dot(pole);
+    (point - pole * point.dot(pole)).normalize()
+}
+
+/// Corners of ordinary facets that are farther apart than this, over their distance from a site, are two.
+const SURE_LENGTH: f64 = 1.0 / (1u64 << 40) as f64;
+
+/// Clipped cells narrower than this need more than doubles on the horizon.
+const NARROW: f64 = 1.0 / 64.0;
+
+/// The two indices after each of a facet's.
+const NEXT: [(u32, u32); 3] = [(1, 2), (2, 0), (0, 1)];
+
+const ABOVE_AND_BELOW: Class = ABOVE | BELOW;
 
 #[cfg(test)]
 mod tests {

@@ -109,6 +109,36 @@ impl Diagram {
         self.vector_moments[index] = vector_moment;
     }
 
+    /// Where the next outline starts.
+    pub(super) fn start_outline(&self) -> usize {
+        self.neighbors.len()
+    }
+
+    /// Adds an edge and the corner at its start to the outline.
+    #[inline]
+    pub(super) fn push_edge(&mut self, neighbor: u32, corner: DVec3) {
+        self.neighbors.push(neighbor);
+        self.vertices.push(corner);
+    }
+
+    /// Takes back all edges since `start`, each of which came with a corner.
+    pub(super) fn drop_outline(&mut self, start: usize) {
+        let count = self.neighbors.len() - start;
+        self.neighbors.truncate(start);
+        self.vertices.truncate(self.vertices.len() - count);
+    }
+
+    /// Gives a cell all edges since `start`.
+    pub(super) fn end_outline(&mut self, index: usize, start: usize) {
+        let count = self.neighbors.len() - start;
+        self.outlines[index] = Outline {
+            edges: start as u32,
+            corners: (self.vertices.len() - count) as u32,
+            edge_count: count as u32,
+            corner_count: count as u32,
+        };
+    }
+
     /// Gives a cell its outline, after those of all cells before.
     pub(super) fn push_outline(
         &mut self,

@@ -29,8 +29,8 @@ pub(super) struct Facet {
     w: DVec3,
     /// w·q is right to this much where q is near the plane.
     error: f32,
-    /// The last site in whose hole the facet was.
-    mark: u32,
+    /// While the hull is built, the last site in whose hole the facet was; later bits of the edges that have no length.
+    pub mark: u32,
     /// Its sites, counter-clockwise seen from outside.
     pub sites: [u32; 3],
     /// Across the edge opposite to each site: four times the facet there, plus the index of the edge in it.

@@ -16,6 +16,7 @@ use core::f64::consts::PI;
 use glam::DVec3;
 
 use super::clip::{Cell, Edge, View};
+use super::ordinary::arc_over_sine_less_one;
 use crate::float::atan2;
 
 /// Bound of the error of the solid angle of a cell, in steradians, and of each component of its vector moment.
@@ -153,30 +154,3 @@ fn fan_vector_moment(corners: &[Corner]) -> DVec3 {
     }
     0.5 * sum
 }
-
-/// θ / sin θ − 1 of the arc with sin²(θ/2) = `s`, for `s` < 3/4 (θ < 2π/3).
-///
-/// Up to 1/16 the power series of asin(√s) / √(s(1 − s)), coefficients 2/3, 2/3·4/5, 2/3·4/5·6/7, …; 14 of them leave
-/// less than 2⁻⁵⁶ of the first. Beyond, the arc itself.
-fn arc_over_sine_less_one(s: f64) -> f64 {
-    if s > 0.0625 {
-        let half_sine = (s * (1.0 - s)).sqrt();
-        return atan2(half_sine, 0.5 - s) / (2.0 * half_sine) - 1.0;
-    }
-    let mut series = 1.0;
-    for ratio in RATIOS {
-        series = 1.0 + ratio * s * series;
-    }
-    2.0 / 3.0 * s * series
-}
-
-/// 28/29, 26/27, … 4/5.
-const RATIOS: [f64; 13] = {
-    let mut ratios = [0.0; 13];
-    let mut k = 0;
-    while k < 13 {
-        ratios[k] = (28 - 2 * k) as f64 / (29 - 2 * k) as f64;
-        k += 1;
-    }
-    ratios
-};

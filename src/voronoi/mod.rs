@@ -58,6 +58,7 @@
 
 mod builder;
 mod clip;
+mod corner;
 mod diagram;
 mod error;
 mod exact;
@@ -65,6 +66,7 @@ mod hull;
 mod incircle;
 mod measure;
 mod order;
+mod ordinary;
 mod predicate;
 mod ray;
 mod twofold;

@@ -54,20 +54,43 @@ fn curve(site: DVec3) -> u64 {
 }
 
 /// The place of the cell (x, y) on the Hilbert curve of 4^`DEPTH` cells.
+#[inline]
 fn hilbert(x: u32, y: u32) -> u32 {
-    let (mut x, mut y, mut place) = (x, y, 0);
-    let full = (1 << DEPTH) - 1;
-    for level in (0..DEPTH).rev() {
-        let (right, up) = (x >> level & 1, y >> level & 1);
-        place = place << 2 | ((3 * right) ^ up);
-        // Without branches, which would be random: turn the quadrant.
-        let flip = (right & (up ^ 1)).wrapping_neg() & full;
-        (x, y) = (x ^ flip, y ^ flip);
-        let swap = (x ^ y) & (up ^ 1).wrapping_neg();
-        (x, y) = (x ^ swap, y ^ swap);
+    let (mut place, mut turn) = (0, 0);
+    for step in (0..DEPTH / LEVELS).rev() {
+        let digits = (x >> (LEVELS * step) & 7) << 3 | (y >> (LEVELS * step) & 7);
+        let entry = u32::from(CURVE[(turn << 6 | digits) as usize]);
+        place = place << 6 | entry >> 2;
+        turn = entry & 3;
     }
     place
 }
+
+/// Levels of the curve in one step.
+const LEVELS: u32 = 3;
+
+/// By the turn of the curve and three bits of x and y: their place, and then the turn of the curve in that cell.
+///
+/// A turn has two bits: whether both coordinates are counted backwards, and whether they are exchanged.
+const CURVE: [u8; 256] = {
+    let mut table = [0; 256];
+    let mut index = 0;
+    while index < 256 {
+        let (mut flip, mut swap, mut place) = (index as u32 >> 7, index as u32 >> 6 & 1, 0);
+        let mut level = LEVELS;
+        while level > 0 {
+            level -= 1;
+            let (x, y) = (index as u32 >> (3 + level) & 1 ^ flip, index as u32 >> level & 1 ^ flip);
+            let (right, up) = if swap == 1 { (y, x) } else { (x, y) };
+            place = place << 2 | ((3 * right) ^ up);
+            flip ^= right & (up ^ 1);
+            swap ^= up ^ 1;
+        }
+        table[index] = (place << 2 | flip << 1 | swap) as u8;
+        index += 1;
+    }
+    table
+};
 
 #[cfg(test)]
 mod tests {
@@ -75,9 +98,9 @@ mod tests {
 
     #[test]
     fn the_curve_steps_to_the_next_cell_and_meets_all() {
-        let side = 1 << 5;
+        let side = 1 << 6;
         let mut cells = vec![None; (side * side) as usize];
-        let coarse = DEPTH - 5;
+        let coarse = DEPTH - 6;
         for x in 0..side {
             for y in 0..side {
                 // The first levels of the curve, whose turns do not depend on the others.

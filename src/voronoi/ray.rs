@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::twofold::{Twofold3, exponent, times_power};
+use super::twofold::{Twofold3, exponent, length_defect, ordered_sum3, product3, times_power};
 
 /// Power of two at which products of components neither overflow nor underflow.
 const ROOM: i32 = 500;
@@ -25,8 +25,8 @@ impl Ray {
     pub fn new(v: DVec3) -> Self {
         // Adding zero turns −0.0 into 0.0, so that both give the same bits.
         let exact = times_power(v, -exponent(v)) + DVec3::ZERO;
-        let unit = Twofold3::from_sum(exact, DVec3::ZERO).unit();
-        Self { exact, unit: unit.hi(), rest: unit.lo() }
+        let (unit, rest) = unit_vector(exact);
+        Self { exact, unit, rest }
     }
 
     /// Whether both are the same direction, decided exactly.
@@ -73,6 +73,27 @@ impl Ray {
         cross.unit().cross(u.add(v)).unit()
     }
 }
+
+/// The unit vector along `v` as a sum of two, for largest components from 1 to 2.
+///
+/// With t + r = v y exactly, y near 1/|v|, and E = |t + r|² − 1, of some 2⁻⁵¹: (t + r)(1 − E/2 + 3E²/8).
+#[inline]
+fn unit_vector(v: DVec3) -> (DVec3, DVec3) {
+    let square = v.length_squared();
+    // Of unit vectors, half or all of `v` will do without a root.
+    let (t, r) = if (square - 4.0).abs() < NEARLY {
+        (0.5 * v, DVec3::ZERO)
+    } else if (square - 1.0).abs() < NEARLY {
+        (v, DVec3::ZERO)
+    } else {
+        product3(v, 1.0 / square.sqrt())
+    };
+    let excess = length_defect(t) + 2.0 * t.dot(r);
+    ordered_sum3(t, r - t * (0.5 * excess - 0.375 * excess * excess))
+}
+
+/// 2⁻⁴⁹: a few units in the last place of 4.
+const NEARLY: f64 = 1.0 / (1u64 << 49) as f64;
 
 /// The product `a b` as (negative, odd factor, power of two): equal numbers have equal triples.
 fn product(a: f64, b: f64) -> (bool, u128, i32) {

@@ -17,6 +17,7 @@ pub(super) struct Twofold {
 }
 
 /// `a + b`, exactly.
+#[inline]
 fn sum(a: f64, b: f64) -> Twofold {
     let hi = a + b;
     let t = hi - a;
@@ -24,12 +25,14 @@ fn sum(a: f64, b: f64) -> Twofold {
 }
 
 /// `a + b`, exactly, for |a| ≥ |b|.
+#[inline]
 fn ordered_sum(a: f64, b: f64) -> Twofold {
     let hi = a + b;
     Twofold { hi, lo: b - (hi - a) }
 }
 
 /// `a` as the sum of two doubles of 26 bits.
+#[inline]
 fn split(a: f64) -> (f64, f64) {
     let t = 134_217_729.0 * a; // 2²⁷ + 1
     let high = t - (t - a);
@@ -37,10 +40,35 @@ fn split(a: f64) -> (f64, f64) {
 }
 
 /// `a b`, exactly.
+#[inline]
 fn product(a: f64, b: f64) -> Twofold {
     let hi = a * b;
     let ((ah, al), (bh, bl)) = (split(a), split(b));
     Twofold { hi, lo: al * bl - (((hi - ah * bh) - al * bh) - ah * bl) }
+}
+
+/// The components of `v` times `y`, as exact sums of two.
+#[inline]
+pub(super) fn product3(v: DVec3, y: f64) -> (DVec3, DVec3) {
+    let [x, y, z] = v.to_array().map(|component| product(component, y));
+    (DVec3::new(x.hi, y.hi, z.hi), DVec3::new(x.lo, y.lo, z.lo))
+}
+
+/// `a + b` as a sum of two whose first is that sum rounded, for components of `b` far below those of `a` or zeros of `a`.
+#[inline]
+pub(super) fn ordered_sum3(a: DVec3, b: DVec3) -> (DVec3, DVec3) {
+    let hi = a + b;
+    (hi, b - (hi - a))
+}
+
+/// |v|² − 1 to about 2⁻¹⁰⁴, for lengths that are right to a few units in the last place.
+#[inline]
+pub(super) fn length_defect(v: DVec3) -> f64 {
+    let [x, y, z] = v.to_array().map(|component| product(component, component));
+    let s = sum(x.hi, y.hi);
+    let t = sum(s.hi, z.hi);
+    // t.hi − 1 is exact.
+    (t.hi - 1.0) + (((x.lo + y.lo) + z.lo) + (s.lo + t.lo))
 }
 
 /// `a b − c d`, with no loss to cancellation.

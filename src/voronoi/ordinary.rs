@@ -1,0 +1,119 @@
+//! Solid angles and vector moments of ordinary cells, edge by edge: both cells of an edge share the work.
+//!
+//! # Model
+//! A cell with corners near its site u is the fan of triangles (u, c, c′) over its edges. With d, e the corners less u,
+//! tan(A/2) = u·(d × e) / (1 + cosines) for each triangle, which is the same for both sites of the edge, and the product of the
+//! complex numbers 1 + i tan has half the cell's solid angle as its argument. Twice the vector moment is
+//! Σ d × e + Σ (θ / sin θ − 1) c × c′, whose second terms are opposite for the two sites.
+
+use glam::DVec3;
+
+use crate::float::atan2;
+
+/// What a cell has gathered of its edges.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sum {
+    re: f64,
+    im: f64,
+    moment: DVec3,
+}
+
+impl Default for Sum {
+    fn default() -> Self {
+        Self { re: 1.0, im: 0.0, moment: DVec3::ZERO }
+    }
+}
+
+/// What both sites share of an edge.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Side {
+    tangent: f64,
+    /// d × e, seen from the site on the left.
+    pub flat: DVec3,
+    bulge: DVec3,
+    pub chord: DVec3,
+}
+
+impl Side {
+    /// The edge from corner `c` with the offsets `d`, `e` of its ends from `site` on its left.
+    #[inline(always)]
+    pub fn new(site: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Self {
+        let chord = e - d;
+        let flat = d.cross(e);
+        let square = chord.length_squared();
+        let cosines = 4.0 - 0.5 * (d.length_squared() + e.length_squared() + square);
+        let bulge = c.cross(chord) * arc_over_sine_less_one(0.25 * square);
+        Self { tangent: site.dot(flat) / cosines, flat, bulge, chord }
+    }
+}
+
+impl Sum {
+    /// Adds an edge with the site on its left.
+    #[inline(always)]
+    pub fn add(&mut self, side: &Side) {
+        self.turn(side.tangent);
+        self.moment += side.flat + side.bulge;
+    }
+
+    /// Adds an edge with the site on its right; `offset` is the site on the left less this one.
+    #[inline(always)]
+    pub fn add_reverse(&mut self, side: &Side, offset: DVec3) {
+        self.turn(side.tangent);
+        self.moment -= side.flat + offset.cross(side.chord) + side.bulge;
+    }
+
+    #[inline(always)]
+    fn turn(&mut self, tangent: f64) {
+        (self.re, self.im) = (self.re - self.im * tangent, self.im + self.re * tangent);
+    }
+
+    pub fn solid_angle(&self) -> f64 {
+        let im = self.im.max(0.0);
+        if im > SMALL * self.re {
+            return 2.0 * atan2(im, self.re);
+        }
+        // The series of the arctangent: the first term left out is 2⁻⁶⁰ of the first.
+        let x = im / self.re;
+        let s = x * x;
+        2.0 * (x - x * s * (1.0 / 3.0 - s * (1.0 / 5.0 - s * (1.0 / 7.0 - s * (1.0 / 9.0 - s * (1.0 / 11.0))))))
+    }
+
+    pub fn vector_moment(&self) -> DVec3 {
+        0.5 * self.moment
+    }
+}
+
+/// Tangents up to here need six terms of the series.
+const SMALL: f64 = 1.0 / 32.0;
+
+/// θ / sin θ − 1 of the arc with sin²(θ/2) = `s`, for `s` < 3/4 (θ < 2π/3).
+///
+/// The power series of asin(√s) / √(s(1 − s)), coefficients 2/3, 2/3·4/5, 2/3·4/5·6/7, …: up to 1/16 14 of them leave less
+/// than 2⁻⁵⁶ of the first, up to 1/128 7 do. Beyond, the arc itself.
+#[inline]
+pub(super) fn arc_over_sine_less_one(s: f64) -> f64 {
+    if s <= 0.007_812_5 {
+        power_series(s, &RATIOS[6..])
+    } else if s <= 0.0625 {
+        power_series(s, &RATIOS)
+    } else {
+        let half_sine = (s * (1.0 - s)).sqrt();
+        atan2(half_sine, 0.5 - s) / (2.0 * half_sine) - 1.0
+    }
+}
+
+#[inline(always)]
+fn power_series(s: f64, ratios: &[f64]) -> f64 {
+    2.0 / 3.0 * s * ratios.iter().fold(1.0, |series, ratio| 1.0 + ratio * s * series)
+}
+
+/// 28/29, 26/27, … 4/5.
+const RATIOS: [f64; 13] = {
+    let mut ratios = [0.0; 13];
+    let mut k = 0;
+    while k < 13 {
+        ratios[k] = (28 - 2 * k) as f64 / (29 - 2 * k) as f64;
+        k += 1;
+    }
+    ratios
+};
