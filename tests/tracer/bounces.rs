@@ -18,8 +18,9 @@ use super::{Hit, Scene, render::View};
 
 /// Places at which each level is tested for a gap.
 const PLACES: usize = 1 << 14;
-/// Rays of a gather where a level has a gap after all: few, for each of them may find a gap in the level below.
-const RAYS_IN_A_GAP: u32 = 16;
+/// Rays of a gather where a level has a gap after all: one continues the path without a bias, more would branch out, for each of
+/// them may find a gap in the level below.
+const RAYS_IN_A_GAP: u32 = 1;
 /// Light vectors gathered at a time.
 const BATCH: usize = 16;
 
@@ -47,11 +48,10 @@ impl Bounces {
         let mut bounces = Self { levels: Vec::new(), sampler, in_a_gap, light_grid, seed, rays: AtomicU64::new(0) };
         for level in 1..=levels {
             let mut cache = Cache::new(validity);
-            let scatterings = levels + 1 - level;
             for places in (0..PLACES).collect::<Vec<_>>().chunks(BATCH * 8) {
                 let found: Vec<Hit> = places
                     .par_iter()
-                    .filter_map(|&place| bounces.place(view, scatterings, place))
+                    .filter_map(|&place| bounces.place(view, place))
                     .filter(|hit| cache.irradiance(hit.position, hit.normal).is_none())
                     .collect();
                 for batch in found.chunks(BATCH) {
@@ -108,12 +108,13 @@ impl Bounces {
         Ok(vector)
     }
 
-    /// Where a path from a random point of the picture ends up after so many diffuse scatterings.
-    fn place(&self, view: &View, scatterings: usize, place: usize) -> Option<Hit> {
+    /// Where a path from a random point of the picture ends up after one, two or three diffuse scatterings: all that can be
+    /// reached, whether seen or not.
+    fn place(&self, view: &View, place: usize) -> Option<Hit> {
         let mut rng = Pcg64::seed_from_u64(self.seed.wrapping_mul(0xd1b5_4a32_d192_ed03) ^ place as u64);
         let surface = view.lit(rng.random_range(0..view.visible.len()))?;
         let mut end = (surface.position, surface.normal, None);
-        for _ in 0..scatterings {
+        for _ in 0..1 + place % 3 {
             let hit = view.scene.intersect(end.0, scattered(end.1, &mut rng))?;
             if hit.reflectance == DVec3::ZERO {
                 return None;
