@@ -14,8 +14,8 @@
 //! (2) n·Φ is the luminance of E, to within rounding: `tests/light_vector_laws.rs`.
 //! (3) A dark hemisphere is homogeneous, its light vector zero: `tests/light_vector_laws.rs`.
 //! (4) The same seed gives the same bits: `tests/light_vector_laws.rs`.
-//! (5) A cache answers with its record at the record's own place, to one ulp, and never for the far side of a surface:
-//!     `tests/cache_laws.rs`.
+//! (5) A cache answers with its record at the record's own place, to one ulp, if it is the only one there, and never for the far
+//!     side of a surface or of a wall: `tests/cache_laws.rs`.
 //! (6) The sampler of the paper takes, ray by ray, the decisions that a plain replay takes: `tests/paper_replay.rs`.
 //!
 //! # Known
