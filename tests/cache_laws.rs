@@ -5,7 +5,7 @@ mod bounds;
 mod seeds;
 
 use approx::assert_relative_eq;
-use bounds::ilv::{CACHE_RECORD, CACHE_SUM, DISTANCE};
+use bounds::ilv::{CACHE_RECORD, CACHE_STRIP, CACHE_SUM, DISTANCE};
 use proptest::prelude::*;
 use rand::RngExt;
 use rand_pcg::Pcg64;
@@ -33,7 +33,7 @@ fn place(rng: &mut Pcg64) -> DVec3 {
 }
 
 fn random_cache(accuracy: f64, records: usize, rng: &mut Pcg64) -> Cache {
-    let mut cache = Cache::new(Validity::new(accuracy, 0.05, 0.8).unwrap());
+    let mut cache = Cache::new(Validity::new(accuracy, 0.05, 0.8).unwrap().gradients(rng.random()));
     for _ in 0..records {
         let normal = upward(rng);
         let distance = rng.random_range(0.02..2.0);
@@ -47,11 +47,21 @@ fn naive(cache: &Cache, position: DVec3, normal: DVec3, accuracy: f64) -> Option
     let (mut sum, mut total) = (DVec3::ZERO, 0.0);
     for (at, facing, radius, vector) in cache.records() {
         let cos = normal.dot(facing);
-        let in_front = (position - at).dot(normal + facing) / 2.0 < -0.01 * radius;
-        let error = position.distance(at) / radius + (1.0 - cos).max(0.0).sqrt();
-        if cos >= 0.5 && !in_front && error < accuracy {
-            let weight = 1.0 / error.max(1e-9) - 1.0 / accuracy;
-            sum += vector.turned(facing, normal) * weight;
+        let offset = position - at;
+        let in_front = offset.dot(normal + facing) / 2.0 < -0.01 * radius;
+        let error = offset.length() / radius + (1.0 - cos).max(0.0).sqrt();
+        if cos >= 0.5 && !in_front && error < accuracy && vector.reaches(offset) {
+            let mut irradiance = vector.turned(facing, normal);
+            if cache.validity().uses_gradients() {
+                let [red, green, blue] = vector.translation_gradient();
+                let steepness = (red * 0.2126 + green * 0.7152 + blue * 0.0722).length();
+                let tamed = (vector.luminance() / steepness / radius).min(1.0);
+                let near = (vector.mean_distance() / radius).min(1.0).powi(2);
+                irradiance += DVec3::new(red.dot(offset), green.dot(offset), blue.dot(offset)) * (tamed * near);
+                irradiance = irradiance.max(vector.irradiance() / 20.0);
+            }
+            let weight = accuracy - error;
+            sum += irradiance * weight;
             total += weight;
         }
     }
@@ -68,9 +78,16 @@ proptest! {
         let mut answered = 0;
         for _ in 0..100 {
             let (position, normal) = (place(&mut rng), upward(&mut rng));
+            let corner = DVec3::new(rng.random(), rng.random(), rng.random()) * 0.3;
+            let vicinity = cache.within(position - corner, position + DVec3::splat(0.1));
+            // A point outside the box is looked up in the whole cache.
+            let elsewhere = cache.within(position + DVec3::splat(0.1), position + DVec3::splat(0.2));
             for (got, reach) in [
                 (cache.irradiance(position, normal), accuracy),
+                (vicinity.irradiance(position, normal), accuracy),
+                (elsewhere.irradiance(position, normal), accuracy),
                 (cache.irradiance_relaxed(position, normal), accuracy * Cache::RELAXATION),
+                (vicinity.irradiance_relaxed(position, normal), accuracy * Cache::RELAXATION),
             ] {
                 let want = naive(&cache, position, normal, reach);
                 match (got, want) {
@@ -103,6 +120,7 @@ proptest! {
     #[test]
     fn a_radius_grows_no_faster_than_the_distance_to_another_record(stream: u64) {
         let cache = random_cache(0.3, 60, &mut seeds::rng(stream));
+        prop_assert_eq!(cache.validate(), Ok(()));
         for (at, _, radius, _) in cache.records() {
             prop_assert!((0.05..=0.8).contains(&radius) || radius < 0.05 + DISTANCE, "{radius}");
             for (there, _, other, _) in cache.records() {
@@ -115,7 +133,7 @@ proptest! {
     #[test]
     fn on_one_plane_the_answer_lies_between_those_of_the_records(stream: u64) {
         let mut rng = seeds::rng(stream);
-        let mut cache = Cache::new(Validity::new(0.5, 0.1, 1.0).unwrap());
+        let mut cache = Cache::new(Validity::new(0.5, 0.1, 1.0).unwrap().gradients(false));
         for _ in 0..20 {
             let at = DVec3::new(rng.random(), rng.random(), 0.0);
             cache.insert(at, DVec3::Z, vector(DVec3::Z, 1.0, &mut rng)).unwrap();
@@ -176,6 +194,83 @@ fn nothing_leaks_through_a_thin_wall_or_over_an_edge() {
     assert_eq!(cache.irradiance(DVec3::ZERO, DVec3::Y), None);
     assert_eq!(cache.irradiance(DVec3::new(-0.1, 0.0, 0.0), DVec3::X), None);
     assert!(cache.irradiance(DVec3::new(0.0, 0.1, 0.0), DVec3::X).is_some());
+}
+
+/// The floor of two rooms, x < 0 and x > 0, with a wall 1e-6 thick between them. Radiance 1 in the first, none in the second.
+fn two_rooms(accuracy: f64, rng: &mut Pcg64) -> Cache {
+    let mut cache = Cache::new(Validity::new(accuracy, 0.01, 0.5).unwrap());
+    for _ in 0..400 {
+        let x: f64 = rng.random_range(-1.0..1.0);
+        let at = DVec3::new(x + 0.5e-6_f64.copysign(x), rng.random_range(-1.0..1.0), 0.0);
+        let mut room = |direction: DVec3| {
+            // Walls at x = ±1 and on both sides of 0, at y = ±1, and a ceiling at z = 1.
+            let toward = |low: f64, high: f64, at: f64, speed: f64| {
+                if speed > 0.0 { (high - at) / speed } else { (low - at) / speed }
+            };
+            let (low, high) = if x < 0.0 { (-1.0, -0.5e-6) } else { (0.5e-6, 1.0) };
+            let sides = toward(low, high, at.x, direction.x).min(toward(-1.0, 1.0, at.y, direction.y));
+            let radiance = if x < 0.0 { DVec3::ONE } else { DVec3::ZERO };
+            Sample { radiance, distance: sides.min(1.0 / direction.z) }
+        };
+        let sampler = AdaptiveSampler::stratified(208).unwrap();
+        let gather = sampler.gather(Frame::new(DVec3::Z).unwrap(), &mut room, rng).unwrap();
+        cache.insert(at, DVec3::Z, *gather.vector()).unwrap();
+    }
+    cache
+}
+
+#[test]
+fn light_stays_in_its_room() {
+    let mut rng = seeds::rng(5);
+    for accuracy in [0.3, 1.0] {
+        let cache = two_rooms(accuracy, &mut rng);
+        let mut answered = 0;
+        for _ in 0..seeds::cases(20_000) {
+            // Most of them near the wall.
+            let x = rng.random_range(-1.0..1.0_f64).powi(3);
+            let at = DVec3::new(x + 0.5e-6_f64.copysign(x), rng.random_range(-1.0..1.0), 0.0);
+            let want = if x < 0.0 { std::f64::consts::PI } else { 0.0 };
+            for found in [cache.irradiance(at, DVec3::Z), cache.irradiance_relaxed(at, DVec3::Z)].into_iter().flatten()
+            {
+                answered += 1;
+                assert!((found.x - want).abs() <= CACHE_SUM, "{at}: {found}, want {want}, accuracy {accuracy}");
+            }
+        }
+        assert!(answered > 20_000, "only {answered} lookups were answered");
+    }
+}
+
+/// Irradiance, for unit radiance, at the distance `x` from the foot of an endless wall of height 1.
+fn strip(x: f64) -> f64 {
+    std::f64::consts::FRAC_PI_2 * (1.0 - x / x.hypot(1.0))
+}
+
+#[test]
+fn gradients_carry_a_slope_from_record_to_record() {
+    let mut rng = seeds::rng(6);
+    let worst = [false, true].map(|gradients| {
+        let mut cache = Cache::new(Validity::new(1.0, 0.6, 0.6).unwrap().gradients(gradients));
+        for step in 0..4 {
+            let x = 1.0 + 0.5 * f64::from(step);
+            let mut wall = |direction: DVec3| {
+                let distance = if direction.x < 0.0 { x / -direction.x } else { f64::INFINITY };
+                let lit = direction.z * distance < 1.0;
+                Sample { radiance: DVec3::splat(f64::from(u8::from(lit))), distance: if lit { distance } else { 1e9 } }
+            };
+            let sampler = AdaptiveSampler::stratified(65_536).unwrap();
+            let gather = sampler.gather(Frame::new(DVec3::Z).unwrap(), &mut wall, &mut rng).unwrap();
+            cache.insert(DVec3::new(x, 0.0, 0.0), DVec3::Z, *gather.vector()).unwrap();
+        }
+        // At the ends of the row no record on the other side makes up for a missing slope.
+        let errors = (0..=200).map(|k| {
+            let x = 0.8 + 0.01 * f64::from(k);
+            let found = cache.irradiance(DVec3::new(x, 0.0, 0.0), DVec3::Z).expect("records are close").x;
+            (found / strip(x) - 1.0).abs()
+        });
+        errors.fold(0.0, f64::max)
+    });
+    println!("worst error without gradients {:.4}, with {:.4}", worst[0], worst[1]);
+    assert!(worst[0] >= CACHE_STRIP[0] && worst[1] <= CACHE_STRIP[1], "{worst:?}, want beyond {CACHE_STRIP:?}");
 }
 
 #[test]

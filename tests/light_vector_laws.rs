@@ -16,7 +16,9 @@ use rand_pcg::Pcg64;
 use statrs::statistics::Statistics;
 use steradian::{
     glam::DVec3,
-    ilv::{AdaptiveSampler, Frame, Gather, GatherError, Points, Refinement, Reuse, Sample, Weights, luminance},
+    ilv::{
+        AdaptiveSampler, CellMap, Frame, Gather, GatherError, Points, Refinement, Reuse, Sample, Weights, luminance,
+    },
     solid_angle,
     sprt::{Bernoulli, Bounds, Looks, Sprt},
 };
@@ -34,6 +36,11 @@ fn samplers() -> Vec<(&'static str, AdaptiveSampler)> {
         Refinement::new(*AdaptiveSampler::paper().splitting().unwrap().test(), 0.25, 3).unwrap().reuse(Reuse::Fresh);
     vec![
         ("default", AdaptiveSampler::default()),
+        ("default, projected cells", AdaptiveSampler::default().map(CellMap::ProjectedSolidAngle)),
+        ("unbiased", AdaptiveSampler::unbiased()),
+        ("spiral 97", AdaptiveSampler::spiral(97).unwrap()),
+        ("spiral 2", AdaptiveSampler::spiral(2).unwrap()),
+        ("sequential", AdaptiveSampler::sequential()),
         ("paper", AdaptiveSampler::paper()),
         ("paper, fresh batches", AdaptiveSampler::paper().refinement(Some(fresh)).unwrap()),
         ("fixed 8 x 8", AdaptiveSampler::fixed(8, 8).unwrap()),
@@ -42,6 +49,17 @@ fn samplers() -> Vec<(&'static str, AdaptiveSampler)> {
         ("independent 40", independent(40)),
     ]
 }
+
+const WEIGHTS: [Weights; 4] =
+    [Weights::LeafMeasure, Weights::VoronoiArea, Weights::VoronoiMoment, Weights::MeasureAndVoronoi];
+
+/// Presets that look, and the rays of their first look.
+const PRESETS: [(fn() -> AdaptiveSampler, usize); 4] = [
+    (AdaptiveSampler::default, 80),
+    (AdaptiveSampler::unbiased, 104),
+    (AdaptiveSampler::sequential, 120),
+    (AdaptiveSampler::paper, 120),
+];
 
 /// A smooth sky with one hard-edged patch.
 fn sky(direction: DVec3) -> Sample {
@@ -83,8 +101,9 @@ proptest! {
     #[test]
     fn the_normal_component_of_the_vector_is_the_irradiance(n in normal(), seed: u64) {
         for (name, sampler) in samplers() {
-            for weights in [Weights::LeafMeasure, Weights::VoronoiArea, Weights::VoronoiMoment] {
+            for weights in WEIGHTS {
                 let gather = gather(&sampler.weights(weights), n, sky, seed);
+                prop_assert_eq!(gather.validate(), Ok(()), "{}, {:?}", name, weights);
                 let vector = gather.vector();
                 let off = n.dot(vector.vector_irradiance()) - vector.luminance();
                 prop_assert!(off.abs() <= IDENTITY * vector.luminance(), "{name}, {weights:?}: {off:e}");
@@ -102,6 +121,7 @@ proptest! {
             let areas: f64 = gather.cells().iter().map(|cell| cell.projected_solid_angle()).sum();
             prop_assert!((areas - PI).abs() <= CONSTANT_FIELD * PI, "{name}: {areas}");
             prop_assert!(gather.rays().len() as u64 <= sampler.most_rays());
+            prop_assert_eq!(gather.validate(), Ok(()), "{}", name);
         }
     }
 
@@ -115,11 +135,11 @@ proptest! {
 
 #[test]
 fn a_dark_field_is_homogeneous_and_gives_the_zero_vector() {
-    for sampler in [AdaptiveSampler::default(), AdaptiveSampler::paper()] {
+    for (sampler, rays) in PRESETS.map(|(preset, rays)| (preset(), rays)) {
         let gather =
             gather(&sampler, DVec3::Y, |_| Sample { radiance: DVec3::ZERO, distance: f64::INFINITY }, seeds::seed());
         let vector = gather.vector();
-        assert_eq!(gather.rays().len(), 120);
+        assert_eq!(gather.rays().len(), rays);
         assert_eq!(vector.irradiance(), DVec3::ZERO);
         assert_eq!(vector.direction(), None);
         assert_eq!(vector.standard_error(), 0.0);
@@ -130,9 +150,9 @@ fn a_dark_field_is_homogeneous_and_gives_the_zero_vector() {
 
 #[test]
 fn a_constant_field_takes_the_first_batches_and_no_more() {
-    for sampler in [AdaptiveSampler::default(), AdaptiveSampler::paper()] {
+    for (sampler, rays) in PRESETS.map(|(preset, rays)| (preset(), rays)) {
         let gather = gather(&sampler, DVec3::Z, |_| Sample { radiance: DVec3::ONE, distance: 1.0 }, seeds::seed());
-        assert_eq!(gather.rays().len(), 120);
+        assert_eq!(gather.rays().len(), rays);
         assert_eq!(gather.cells().len(), 12);
     }
 }
@@ -221,7 +241,10 @@ fn the_standard_error_is_the_scatter_of_gathers_or_as_much_more_as_was_measured(
         ("fixed 1 x 64", AdaptiveSampler::fixed(1, 64).unwrap()),
         ("stratified 208", AdaptiveSampler::stratified(208).unwrap()),
         ("paper", AdaptiveSampler::paper()),
+        ("spiral 208", AdaptiveSampler::spiral(208).unwrap()),
+        ("sequential", AdaptiveSampler::sequential()),
         ("default", AdaptiveSampler::default()),
+        ("unbiased", AdaptiveSampler::unbiased()),
     ] {
         let (mut squares, mut values) = (Vec::new(), Vec::new());
         for seed in 0..u64::from(seeds::cases(1000)) {
@@ -296,8 +319,8 @@ fn bad_answers_of_a_source_are_typed_errors() {
             .map(|gather| gather.rays().len())
     };
     let one = DVec3::ONE;
-    assert_eq!(attempt(one, f64::INFINITY, one), Ok(120));
-    assert_eq!(attempt(one, 0.0, one), Ok(120));
+    assert_eq!(attempt(one, f64::INFINITY, one), Ok(80));
+    assert_eq!(attempt(one, 0.0, one), Ok(80));
     for bad in [DVec3::new(f64::NAN, 1.0, 1.0), DVec3::new(1.0, -1e-300, 1.0), DVec3::splat(f64::INFINITY)] {
         assert!(matches!(attempt(bad, 1.0, one), Err(GatherError::Radiance { .. })), "{bad}");
         assert!(matches!(attempt(one, 1.0, bad), Err(GatherError::Reflectance { .. })), "{bad}");
@@ -305,7 +328,7 @@ fn bad_answers_of_a_source_are_typed_errors() {
     for bad in [f64::NAN, -1e-300, -1.0, f64::NEG_INFINITY] {
         assert!(matches!(attempt(one, bad, one), Err(GatherError::Distance { .. })), "{bad}");
     }
-    assert_eq!(attempt(DVec3::splat(Gather::BRIGHTEST), 1.0, DVec3::splat(Gather::BRIGHTEST)), Ok(120));
+    assert_eq!(attempt(DVec3::splat(Gather::BRIGHTEST), 1.0, DVec3::splat(Gather::BRIGHTEST)), Ok(80));
     for bad in [f64::MAX, Gather::BRIGHTEST * 1.001] {
         assert!(matches!(attempt(DVec3::splat(bad), 1.0, one), Err(GatherError::Radiance { .. })), "{bad}");
     }

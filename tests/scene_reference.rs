@@ -1,4 +1,4 @@
-//! Law: one-bounce pictures of the scenes have the means that an independent path tracer gives them.
+//! Law: pictures of the scenes after one reflection and more have the means that an independent path tracer gives them.
 #![cfg(feature = "ilv")]
 
 mod seeds;
@@ -7,8 +7,15 @@ mod tracer;
 
 use std::f64::consts::PI;
 
-use steradian::glam::{DVec3, dvec3};
-use tracer::{Camera, Scene, SceneSource, bounds, cosine_stratified};
+use rayon::prelude::*;
+use steradian::{
+    glam::{DVec3, dvec3},
+    ilv::AdaptiveSampler,
+};
+use tracer::{
+    Camera, Scene, SceneSource, bounds, cosine_stratified,
+    render::{Gatherer, Settings, View},
+};
 
 /// Mean luminances of a scene: what visible surfaces reflect of the direct light, and of the light reflected once before.
 struct Means {
@@ -22,7 +29,8 @@ struct Means {
 /// that does not emit: pixels that see the light, or nothing, do not count at all.
 ///
 /// # Source
-/// Mitsuba 3.9.1, llvm_ad_rgb (single precision), the same geometry as triangles, rays through the pixel centres only.
+/// Mitsuba 3.9.1, llvm_ad_rgb (single precision), the same geometry as triangles, rays through the pixel centres only; made by
+/// `benches/peers/reference.py`.
 /// Indirect: path integrator with max_depth 3 minus max_depth 2, 32768 independent samples a pixel for each; standard errors
 /// 3, 4 and 6 in the last digit. Direct: max_depth 2.
 const CORNELL: Means = Means { pixels: 5217, direct: 0.034572, indirect: 0.016608 };
@@ -30,6 +38,43 @@ const CORNELL: Means = Means { pixels: 5217, direct: 0.034572, indirect: 0.01660
 const CORNELL_CLOSED: Means = Means { pixels: 5591, direct: 0.051604, indirect: 0.033926 };
 /// As [`CORNELL`].
 const CORRIDOR: Means = Means { pixels: 5625, direct: 0.029792, indirect: 0.032669 };
+
+/// Mean luminance of what visible surfaces reflect after two reflections at most, and after four.
+///
+/// # Source
+/// As [`CORNELL`], 4096 samples a pixel; standard errors 1e-5 to 4e-5.
+const SEVERAL: [(&str, [f64; 2]); 3] =
+    [("cornell", [0.024569, 0.030156]), ("cornell_closed", [0.050448, 0.065972]), ("corridor", [0.060986, 0.101267])];
+
+#[test]
+fn several_reflections_have_the_means_of_mitsuba() {
+    for (name, means) in SEVERAL {
+        let scenes = [Scene::cornell(), Scene::cornell_closed(), Scene::corridor()];
+        let scene = scenes.into_iter().find(|scene| scene.name == name).expect("a scene of that name");
+        let view = View::new(&scene, 600);
+        for (bounces, want) in [2, 4].into_iter().zip(means) {
+            let sampler = AdaptiveSampler::stratified(64).expect("a grid");
+            let settings = Settings { bounces, ..Settings::new(sampler, None, &scene, 4, seeds::seed()) };
+            let gatherer = Gatherer::new(&view, &settings).expect("a bounded field");
+            let lit = (0..75 * 75).map(|k| 600 * (8 * (k / 75) + 4) + 8 * (k % 75) + 4);
+            let lit: Vec<usize> = lit.filter(|&pixel| view.lit(pixel).is_some()).collect();
+            let sum: f64 = lit
+                .par_iter()
+                .map(|&pixel| {
+                    let vector = gatherer.gather(pixel).expect("a bounded field");
+                    luminance(vector.diffuse_radiance(gatherer.surface(pixel).reflectance))
+                })
+                .sum();
+            let got = sum / lit.len() as f64;
+            println!("{name}, {bounces} reflections: got {got:.6}, want {want:.6}, ratio {:.5}", got / want);
+            assert!(
+                (got / want - 1.0).abs() <= bounds::REFERENCE_SEVERAL,
+                "{name}, {bounces} reflections: got {got:.6}, want {want:.6}; seed {}",
+                seeds::seed()
+            );
+        }
+    }
+}
 
 fn luminance(radiance: DVec3) -> f64 {
     radiance.dot(dvec3(0.2126, 0.7152, 0.0722))

@@ -2,7 +2,7 @@
 
 use std::{fmt, io, path::PathBuf};
 
-use steradian::ilv::{GatherError, SamplerError, ValidityError};
+use steradian::ilv::{GatherError, RefinementError, SamplerError, ValidityError};
 
 /// A failure of the job.
 #[derive(Debug)]
@@ -19,6 +19,10 @@ pub enum JobError {
     Threads(rayon::ThreadPoolBuildError),
     /// The sampler was refused.
     Sampler(SamplerError),
+    /// The rule of splitting was refused.
+    Refinement(RefinementError),
+    /// A plot could not be drawn.
+    Plot(String),
     /// The cache rule was refused.
     Validity(ValidityError),
     /// A gather failed.
@@ -34,6 +38,8 @@ impl fmt::Display for JobError {
             Self::Output(error) => write!(f, "cannot print: {error}"),
             Self::Threads(error) => write!(f, "cannot start the threads: {error}"),
             Self::Sampler(error) => write!(f, "{error}"),
+            Self::Refinement(error) => write!(f, "{error}"),
+            Self::Plot(error) => write!(f, "cannot draw the curves: {error}"),
             Self::Validity(error) => write!(f, "{error}"),
             Self::Gather(error) => write!(f, "{error}"),
         }
@@ -63,5 +69,11 @@ impl From<ValidityError> for JobError {
 impl From<GatherError> for JobError {
     fn from(error: GatherError) -> Self {
         Self::Gather(error)
+    }
+}
+
+impl From<RefinementError> for JobError {
+    fn from(error: RefinementError) -> Self {
+        Self::Refinement(error)
     }
 }

@@ -1,7 +1,8 @@
 //! The experiment of Serpaggi and Péroche (2001), table 1, with the error that the paper left out.
 //!
-//! Renders each scene by each method, prints one table per scene, and writes pictures, error maps, one contact sheet per
-//! scene and the table as CSV into the folder that `--out` names. See `--help`. The same seed gives the same pictures on
+//! Renders each scene by each method, prints one table per scene, and writes pictures, error maps, maps of the stated standard
+//! error, one contact sheet per scene and the table as CSV into the folder that `--out` names. With `--sweep` it draws the
+//! error against CPU time and against rays instead. See `--help`. The same seed gives the same pictures on
 //! any number of threads; only the sheets differ from run to run, for they state the CPU time.
 
 use std::{
@@ -12,31 +13,31 @@ use std::{
 
 use clap::Parser;
 use cpu_time::ProcessTime;
-use steradian::{
-    glam::DVec3,
-    ilv::{AdaptiveSampler, Validity, luminance},
-};
+use steradian::{glam::DVec3, ilv::luminance};
 
 #[allow(dead_code, unused_imports, reason = "uses a part of the tracer")]
 #[path = "../../tests/tracer/mod.rs"]
 mod tracer;
 
 mod error;
+mod method;
 mod options;
 mod picture;
 mod progress;
 mod reference;
+mod sweep;
 mod table;
 
 use error::JobError;
-use options::{MethodName, Options, SceneName};
+use method::{label, settings};
+use options::{Options, SceneName};
 use picture::Column;
 use progress::Progress;
 use reference::Reference;
 use table::Row;
 use tracer::{
     Scene,
-    render::{self, Settings, View},
+    render::{self, View},
 };
 
 /// Points along each side of the lamp at which the methods test its visibility.
@@ -68,11 +69,15 @@ fn run(options: &Options) -> Result<(), JobError> {
             .map_err(|error| JobError::File { path: folder.to_owned(), error })?;
     }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build().map_err(JobError::Threads)?;
+    if options.sweep {
+        return pool.install(|| sweep::run(options));
+    }
     let mut rows = Vec::new();
     for &name in &options.scene {
         let of_scene = pool.install(|| compare(name, options))?;
         let (scene, size) = (scene_of(name).name, options.size);
-        writeln!(io::stdout(), "{scene}, {size} x {size} pixels, one indirect bounce\n{}", table::text(&of_scene))?;
+        let bounces = bounces(options);
+        writeln!(io::stdout(), "{scene}, {size} x {size} pixels, {bounces}\n{}", table::text(&of_scene))?;
         rows.extend(of_scene);
     }
     table::write(&rows, &options.out.join("table.csv"))?;
@@ -84,7 +89,7 @@ fn run(options: &Options) -> Result<(), JobError> {
 fn compare(name: SceneName, options: &Options) -> Result<Vec<Row>, JobError> {
     let scene = scene_of(name);
     let view = View::new(&scene, options.size);
-    let reference = Reference::of(&view, options.reference_rays, REFERENCES.as_ref())?;
+    let reference = Reference::of(&view, options.reference_rays, options.bounces, REFERENCES.as_ref())?;
     let truth = reference.mean();
     let lit: Vec<f64> =
         (0..truth.len()).filter(|&pixel| view.lit(pixel).is_some()).map(|pixel| luminance(truth[pixel])).collect();
@@ -124,9 +129,12 @@ fn compare(name: SceneName, options: &Options) -> Result<Vec<Row>, JobError> {
         let found = &rendering.indirect;
         let map = picture::error_map(size, |pixel| (luminance(found[pixel]) - luminance(truth[pixel])) / mean);
         columns.push(draw(label, note, found, map)?);
+        let confidence = picture::error_map(size, |pixel| rendering.standard_error[pixel] / mean);
+        let file = format!("{}_{label}_confidence.png", scene.name);
+        picture::save(&picture::with_scale(&confidence), &options.out.join(file))?;
         rows.push(row);
     }
-    let title = format!("{}, one indirect bounce", scene.name);
+    let title = format!("{}, {}", scene.name, bounces(options));
     let sheet = picture::contact_sheet(&title, &columns);
     picture::save(&sheet, &options.out.join(format!("{}_sheet.png", scene.name)))?;
     Ok(rows)
@@ -136,6 +144,13 @@ fn compare(name: SceneName, options: &Options) -> Result<Vec<Row>, JobError> {
 struct Exposures {
     picture: f64,
     indirect: f64,
+}
+
+fn bounces(options: &Options) -> String {
+    match options.bounces {
+        1 => "one indirect bounce".to_owned(),
+        n => format!("{n} indirect bounces"),
+    }
 }
 
 fn sum(a: &[DVec3], b: &[DVec3]) -> Vec<DVec3> {
@@ -148,27 +163,4 @@ fn scene_of(name: SceneName) -> Scene {
         SceneName::CornellClosed => Scene::cornell_closed(),
         SceneName::Corridor => Scene::corridor(),
     }
-}
-
-fn label(method: MethodName) -> &'static str {
-    match method {
-        MethodName::Brute => "brute",
-        MethodName::Original => "original",
-        MethodName::Paper => "paper",
-        MethodName::Stratified => "stratified",
-    }
-}
-
-fn settings(method: MethodName, scene: &Scene, options: &Options) -> Result<Settings, JobError> {
-    let sampler = match method {
-        MethodName::Brute => AdaptiveSampler::stratified(options.brute_rays)?,
-        MethodName::Original => AdaptiveSampler::fixed(32, 32)?,
-        MethodName::Paper => AdaptiveSampler::paper(),
-        MethodName::Stratified => AdaptiveSampler::stratified(options.stratified_rays)?,
-    };
-    let validity = match method {
-        MethodName::Brute => None,
-        _ => Some(Validity::for_scene(options.accuracy, scene.size)?),
-    };
-    Ok(Settings { sampler, validity, light_grid: LIGHT_GRID, seed: options.seed })
 }

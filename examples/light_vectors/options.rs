@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Parser, ValueEnum};
 
-/// Renders the scenes of Serpaggi and Péroche (2001), one indirect bounce, by several methods, and tells what each costs
+/// Renders the indirect light of the scenes of Serpaggi and Péroche (2001) by several methods, and tells what each costs
 /// and how far it is from a converged reference.
-#[derive(Parser, Debug)]
+#[derive(Parser, Clone, Debug)]
 #[command(name = "light_vectors", version)]
 pub struct Options {
     /// Width and height of the pictures in pixels
@@ -33,7 +33,16 @@ pub struct Options {
     #[arg(long, default_value = "target/light_vectors")]
     pub out: PathBuf,
 
-    /// Error at which a light vector stops being used (Ward's accuracy): smaller is slower and better
+    /// Number of reflections between the lamp and what the pictures show
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=16))]
+    pub bounces: u32,
+
+    /// Draw curves of error against time and rays instead, by every method at several settings
+    #[arg(long)]
+    pub sweep: bool,
+
+    /// Error at which a light vector stops being used (Ward's accuracy): smaller is slower and better. Light vectors with
+    /// gradients are used up to twice of it
     #[arg(long, default_value_t = 0.4, value_parser = parse_accuracy)]
     pub accuracy: f64,
 
@@ -41,7 +50,7 @@ pub struct Options {
     #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     pub brute_rays: u32,
 
-    /// Rays per light vector of `stratified`
+    /// Rays per light vector of `stratified`, `gradients` and `seeded`
     #[arg(long, default_value_t = 208, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     pub stratified_rays: u32,
 
@@ -72,6 +81,14 @@ pub enum MethodName {
     Paper,
     /// Light vectors of as many rays in equal projected solid angles as `--stratified-rays` says
     Stratified,
+    /// The same, interpolated along their gradients
+    Gradients,
+    /// The same, placed where a sequential test finds interpolation wrong
+    Seeded,
+    /// Light vectors of this crate's adaptive sampler, interpolated along their gradients
+    Default,
+    /// The same with unbiased irradiances
+    Unbiased,
 }
 
 fn parse_accuracy(text: &str) -> Result<f64, String> {

@@ -5,12 +5,15 @@
 
 use std::path::{Path, PathBuf};
 
-use steradian::{glam::DVec3, ilv::AdaptiveSampler};
+use steradian::{
+    glam::DVec3,
+    ilv::{AdaptiveSampler, Validity},
+};
 
 use crate::{
     error::JobError,
     progress::Progress,
-    tracer::render::{self, Settings, View},
+    tracer::render::{self, Gatherer, Settings, View},
 };
 
 /// Seeds of the two halves, apart from every seed a person would choose.
@@ -28,17 +31,24 @@ pub struct Reference {
 
 impl Reference {
     /// The reference of `view` with `rays` rays a pixel, read from `folder` or made and put there.
-    pub fn of(view: &View, rays: u32, folder: &Path) -> Result<Self, JobError> {
+    pub fn of(view: &View, rays: u32, bounces: u32, folder: &Path) -> Result<Self, JobError> {
         let sampler = AdaptiveSampler::stratified((rays / 2).max(1))?;
-        let path = folder.join(format!("reference_{}_{}_{rays}.csv", view.scene.name, view.size));
+        let bounced = if bounces == 1 { String::new() } else { format!("_{bounces}_bounces") };
+        let path = folder.join(format!("reference_{}_{}_{rays}{bounced}.csv", view.scene.name, view.size));
+        // Of the reflections before the last, the light changes little from place to place.
+        let earlier = (AdaptiveSampler::stratified(512)?, Validity::for_scene(0.5, view.scene.size)?);
+        let settings = SEEDS.map(|seed| Settings {
+            bounces: bounces as usize,
+            earlier,
+            ..Settings::new(sampler, None, view.scene, LIGHT_GRID, seed)
+        });
         if let Some(kept) = Self::read(&path, view.visible.len()) {
-            if kept.matches(view, &sampler)? {
+            if kept.matches(view, &settings)? {
                 return Ok(kept);
             }
         }
         let progress = Progress::new(&format!("{} reference", view.scene.name), 2 * view.visible.len());
-        let [a, b] = SEEDS.map(|seed| {
-            let settings = Settings { sampler, validity: None, light_grid: LIGHT_GRID, seed };
+        let [a, b] = settings.map(|settings| {
             render::render(view, &settings, &|pixels| progress.advance(pixels)).map(|rendering| rendering.indirect)
         });
         // Kept as f32, so that a second run reads exactly what the first one used.
@@ -85,12 +95,13 @@ impl Reference {
     }
 
     /// Whether a few pixels come out again as they were kept.
-    fn matches(&self, view: &View, sampler: &AdaptiveSampler) -> Result<bool, JobError> {
+    fn matches(&self, view: &View, settings: &[Settings; 2]) -> Result<bool, JobError> {
         let step = (view.visible.len() / CHECKED).max(1);
-        for pixel in (step / 2..view.visible.len()).step_by(step) {
-            let Some(surface) = view.lit(pixel) else { continue };
-            for (half, seed) in self.halves.iter().zip(SEEDS) {
-                let vector = view.gather(surface, sampler, LIGHT_GRID, seed, pixel)?;
+        for (half, settings) in self.halves.iter().zip(settings) {
+            let gatherer = Gatherer::new(view, settings)?;
+            for pixel in (step / 2..view.visible.len()).step_by(step) {
+                let Some(surface) = view.lit(pixel) else { continue };
+                let vector = gatherer.gather(pixel)?;
                 if vector.diffuse_radiance(surface.reflectance).as_vec3() != half[pixel].as_vec3() {
                     return Ok(false);
                 }

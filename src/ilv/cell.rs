@@ -15,6 +15,9 @@ pub enum CellMap {
     SolidAngle,
     /// u = cos² θ: equal projected solid angles, the measure that irradiance integrates.
     ProjectedSolidAngle,
+    /// u = (cos θ + cos² θ)/2: equal means of both, the first as a share of 2π and the second of π. Rays reach the horizon,
+    /// where they matter for the direction of the light, and are most where they matter for its power.
+    Balanced,
 }
 
 impl CellMap {
@@ -23,6 +26,21 @@ impl CellMap {
         match self {
             Self::SolidAngle => (u, ((1.0 - u) * (1.0 + u)).sqrt()),
             Self::ProjectedSolidAngle => (u.sqrt(), (1.0 - u).sqrt()),
+            Self::Balanced => {
+                // The root of c² + c = 2u, without the cancellation for small u.
+                let cos = 4.0 * u / (1.0 + (1.0 + 8.0 * u).sqrt());
+                // 1 − c = 2(1 − u)/(2 + c), from the same equation.
+                (cos, (2.0 * (1.0 - u) / (2.0 + cos) * (1.0 + cos)).sqrt())
+            }
+        }
+    }
+
+    /// du/d(cos θ): the density of the map's measure over solid angle, but for 1/(2π).
+    pub(super) fn density(self, cos: f64) -> f64 {
+        match self {
+            Self::SolidAngle => 1.0,
+            Self::ProjectedSolidAngle => 2.0 * cos,
+            Self::Balanced => 0.5 + cos,
         }
     }
 
@@ -118,6 +136,7 @@ impl Cell {
             CellMap::ProjectedSolidAngle => {
                 (self.u[1] - self.u[0]) / (self.u[1].sqrt() + self.u[0].sqrt()) * self.sweep()
             }
+            CellMap::Balanced => self.cosines().0 * self.sweep(),
         }
     }
 
@@ -131,7 +150,22 @@ impl Cell {
         match self.map {
             CellMap::SolidAngle => 0.5 * width * (self.u[1] + self.u[0]) * self.sweep(),
             CellMap::ProjectedSolidAngle => 0.5 * width * self.sweep(),
+            CellMap::Balanced => {
+                let (difference, sum) = self.cosines();
+                0.5 * difference * sum * self.sweep()
+            }
         }
+    }
+
+    /// Area in the (u, φ) rectangle.
+    pub(super) fn extent(&self) -> f64 {
+        (self.u[1] - self.u[0]) * self.sweep()
+    }
+
+    /// Difference and sum of cos θ at both ends of a balanced cell: c² + c = 2u, so that Δc (Σc + 1) = 2 Δu.
+    fn cosines(&self) -> (f64, f64) {
+        let [low, high] = self.u.map(|u| self.map.cos_sin(u).0);
+        (2.0 * (self.u[1] - self.u[0]) / (1.0 + low + high), low + high)
     }
 
     /// Vector moment ∫ ω dω of the cell in the coordinates of its frame; its z component is the projected solid angle.
@@ -148,6 +182,30 @@ impl Cell {
     fn moment_between(&self, ring: [f64; 2], [(s0, c0), (s1, c1)]: [(f64, f64); 2]) -> DVec3 {
         let ring = ring[1] - ring[0];
         DVec3::new(ring * (s1 - s0), ring * (c0 - c1), self.projected_solid_angle())
+    }
+
+    /// Normal of the meridian at the upper end of the azimuth, towards larger azimuths.
+    pub(super) fn meridian_normal(&self) -> DVec3 {
+        let (sin, cos) = float::sin_cos(self.azimuth[1]);
+        DVec3::new(-sin, cos, 0.0)
+    }
+
+    /// ∫ cos θ dθ over the part of a meridian between two values of u, the lower one first.
+    pub(super) fn meridian_height(&self, [low, high]: [f64; 2]) -> f64 {
+        self.map.cos_sin(low).1 - self.map.cos_sin(high).1
+    }
+
+    /// ∫ (cos φ, sin φ, 0) dφ between two azimuths.
+    pub(super) fn outward_arc(azimuth: [f64; 2]) -> DVec3 {
+        let [(s0, c0), (s1, c1)] = azimuth.map(float::sin_cos);
+        DVec3::new(s1 - s0, c0 - c1, 0.0)
+    }
+
+    /// cos² θ sin θ at the upper end of u: with it, [`outward_arc`](Self::outward_arc) is the tangent part of ∫ N cos θ dl
+    /// over a parallel, with N towards the horizon.
+    pub(super) fn parallel_factor(&self) -> f64 {
+        let (cos, sin) = self.map.cos_sin(self.u[1]);
+        cos * cos * sin
     }
 
     /// Vector moments of all cells of a grid, in the order of the grid: as [`vector_moment`](Self::vector_moment) to the
@@ -184,7 +242,7 @@ mod tests {
 
     use super::*;
 
-    const MAPS: [CellMap; 2] = [CellMap::SolidAngle, CellMap::ProjectedSolidAngle];
+    const MAPS: [CellMap; 3] = [CellMap::SolidAngle, CellMap::ProjectedSolidAngle, CellMap::Balanced];
 
     fn grid(map: CellMap) -> impl Iterator<Item = Cell> {
         (0..3).flat_map(move |ring| (0..4).map(move |sector| Cell::of_grid(map, [3, 4], ring, sector)))
@@ -217,6 +275,10 @@ mod tests {
         for cell in grid(CellMap::ProjectedSolidAngle) {
             assert!((cell.projected_solid_angle() - PI / 12.0).abs() < 1e-15);
         }
+        for cell in grid(CellMap::Balanced) {
+            let shares = cell.solid_angle() / TAU + cell.projected_solid_angle() / PI;
+            assert!((shares - 2.0 / 12.0).abs() < 1e-15);
+        }
     }
 
     #[test]
@@ -244,12 +306,8 @@ mod tests {
             for i in 0..n {
                 for j in 0..n {
                     let at = cell.at([(f64::from(i) + 0.5) / f64::from(n), (f64::from(j) + 0.5) / f64::from(n)]);
-                    // The map's density: equal steps of u carry equal solid angle or equal projected solid angle.
                     let direction = cell.direction(at);
-                    sum += match map {
-                        CellMap::SolidAngle => direction,
-                        CellMap::ProjectedSolidAngle => direction / (2.0 * direction.z),
-                    };
+                    sum += direction / map.density(direction.z);
                 }
             }
             let measure = (cell.u[1] - cell.u[0]) * cell.sweep();

@@ -8,8 +8,14 @@ use glam::DVec3;
 use rand::{Rng, RngExt};
 
 use super::{
-    AdaptiveSampler, Cell, Frame, LightVector, Points, RadianceSource, Refinement, Weights, cell::Coordinates,
-    luminance, refinement::Homogeneity, weights::Weighing,
+    AdaptiveSampler, Cell, Frame, LightVector, Pilot, Points, RadianceSource, Refinement, Weights, Workspace,
+    cell::Coordinates,
+    luminance,
+    pilot::{Density, Scatter},
+    refinement::Homogeneity,
+    sampler::Plan,
+    spiral::Spiral,
+    weights::Weighing,
 };
 use crate::{sprt::Decision, voronoi::VoronoiError};
 
@@ -59,9 +65,9 @@ impl Ray {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gather {
     frame: Frame,
-    cells: Vec<Cell>,
-    rays: Vec<Ray>,
-    vector: LightVector,
+    pub(super) cells: Vec<Cell>,
+    pub(super) rays: Vec<Ray>,
+    pub(super) vector: LightVector,
 }
 
 /// Why a gather failed.
@@ -114,7 +120,7 @@ impl fmt::Display for GatherError {
                 )
             }
             Self::TooManySites { rays } => {
-                write!(f, "a gather with Voronoi weights may take {rays} rays, above {}", Gather::MAX_SITES)
+                write!(f, "a gather with a Voronoi diagram may take {rays} rays, above {}", Gather::MAX_SITES)
             }
             Self::Voronoi(error) => write!(f, "the Voronoi diagram of the rays failed: {error}"),
         }
@@ -127,7 +133,7 @@ impl Gather {
     /// The largest radiance and the largest reflectance, colour by colour: sums of their squares are still numbers.
     pub const BRIGHTEST: f64 = 1e75;
 
-    /// The most rays that a gather with Voronoi weights may be allowed; a diagram of that many takes some minutes, one of
+    /// The most rays that a gather with a Voronoi diagram, for its weights or its gradient, may be allowed; a diagram of that many takes some minutes, one of
     /// a thousand some milliseconds.
     pub const MAX_SITES: u64 = 1 << 17;
 
@@ -189,15 +195,41 @@ impl AdaptiveSampler {
         B: FnMut(DVec3) -> DVec3,
         R: Rng + ?Sized,
     {
+        self.gather_with(&mut Workspace::new(), frame, source, reflectance, rng)
+    }
+
+    /// [`gather_reflected`](Self::gather_reflected) with buffers that the caller keeps from one gather to the next.
+    ///
+    /// # Errors
+    /// As [`gather_reflected`](Self::gather_reflected); the workspace can be used again.
+    pub fn gather_with<S, B, R>(
+        &self,
+        workspace: &mut Workspace,
+        frame: Frame,
+        source: &mut S,
+        reflectance: B,
+        rng: &mut R,
+    ) -> Result<Gather, GatherError>
+    where
+        S: RadianceSource + ?Sized,
+        B: FnMut(DVec3) -> DVec3,
+        R: Rng + ?Sized,
+    {
         let most = self.most_rays();
-        if self.weights != Weights::LeafMeasure && most > Gather::MAX_SITES {
+        let diagram = self.weights != Weights::LeafMeasure || !matches!(self.plan, Plan::OneEach);
+        if diagram && most > Gather::MAX_SITES {
             return Err(GatherError::TooManySites { rays: most });
         }
         let frame = frame.rotated(core::f64::consts::TAU * rng.random::<f64>());
         let mut tracing = Tracing { frame, points: self.points, source, reflectance, rng, shots: Vec::new() };
-        let leaves = match &self.refinement {
-            None => tracing.one_ray_each(self.base_cells().collect())?,
-            Some(rule) => tracing.refine(self.base_cells(), rule)?,
+        let cells = self.base_cells();
+        let leaves = match &self.plan {
+            Plan::OneEach => tracing.one_ray_each(cells.collect())?,
+            Plan::Spiral(rays) => tracing.spiral(cells.collect(), self.grid, *rays)?,
+            Plan::Sequential(rule) => tracing.refine(cells, rule)?,
+            Plan::Piloted(pilot) => {
+                tracing.piloted(cells.collect(), self.grid, pilot, self.weights.shares_measures())?
+            }
         };
         let mut rays: Vec<Ray> = tracing.shots.iter().map(|shot| shot.ray).collect();
         for (index, members) in leaves.members().enumerate() {
@@ -207,8 +239,8 @@ impl AdaptiveSampler {
         }
         let weighing =
             Weighing { weights: self.weights, sectors: self.grid[1] as usize, frame: &frame, leaves: &leaves };
-        weighing.assign(&mut rays).map_err(GatherError::Voronoi)?;
-        let vector = weighing.light_vector(&rays);
+        let gradient = weighing.assign(&mut rays, workspace).map_err(GatherError::Voronoi)?;
+        let vector = weighing.light_vector(&rays, gradient);
         Ok(Gather { frame, cells: leaves.cells, rays, vector })
     }
 
@@ -244,17 +276,41 @@ pub(super) struct Leaves {
     members: Vec<u32>,
     /// End of each leaf's rays in `members`.
     ends: Vec<usize>,
+    /// How many rays each leaf was to have, where their number is random; empty where it is what it is.
+    pub expected: Vec<f64>,
+    /// Number of rays, from the first, that only planned the others.
+    pub discarded: usize,
 }
 
 impl Leaves {
     fn from_branches(branches: &[Branch]) -> Self {
-        let mut leaves = Self { cells: Vec::new(), members: Vec::new(), ends: Vec::new() };
+        let mut leaves =
+            Self { cells: Vec::new(), members: Vec::new(), ends: Vec::new(), expected: Vec::new(), discarded: 0 };
         for branch in branches {
             leaves.cells.push(branch.cell);
             leaves.members.extend_from_slice(&branch.rays);
             leaves.ends.push(leaves.members.len());
         }
         leaves
+    }
+
+    /// Cells with the rays that lie in them.
+    fn from_cells(cells: Vec<Cell>, cell_of_ray: &[usize], expected: Vec<f64>, discarded: usize) -> Self {
+        let mut ends: Vec<usize> = [0].repeat(cells.len());
+        for &cell in cell_of_ray {
+            ends[cell] += 1;
+        }
+        let mut total = 0;
+        for end in &mut ends {
+            // For now the start of the cell's rays; every ray moves it on, to the end at last.
+            total += core::mem::replace(end, total);
+        }
+        let mut members: Vec<u32> = [0].repeat(cell_of_ray.len());
+        for (ray, &cell) in cell_of_ray.iter().enumerate() {
+            members[ends[cell]] = ray as u32;
+            ends[cell] += 1;
+        }
+        Self { cells, members, ends, expected, discarded }
     }
 
     /// The rays of every leaf, by index, in the order of the cells.
@@ -296,7 +352,57 @@ where
         }
         let members: Vec<u32> = (0..cells.len() as u32).collect();
         let ends = (1..=cells.len()).collect();
-        Ok(Leaves { cells, members, ends })
+        Ok(Leaves { cells, members, ends, expected: Vec::new(), discarded: 0 })
+    }
+
+    /// Shoots a golden spiral at the given density; returns the expected number of rays in every cell.
+    fn shoot_spiral(
+        &mut self,
+        rays: u32,
+        density: &Density,
+        cells: &[Cell],
+        cell_of_ray: &mut Vec<usize>,
+    ) -> Result<Vec<f64>, GatherError> {
+        self.shots.reserve(rays as usize);
+        for point in Spiral::new(rays, self.rng) {
+            let (cell, s) = density.place(point);
+            cell_of_ray.push(cell);
+            self.shoot(&cells[cell], s)?;
+        }
+        let per_cell = f64::from(rays) / cells.len() as f64;
+        Ok(density.weights().iter().map(|weight| weight * per_cell).collect())
+    }
+
+    fn spiral(&mut self, cells: Vec<Cell>, grid: [u32; 2], rays: u32) -> Result<Leaves, GatherError> {
+        let mut cell_of_ray = Vec::with_capacity(rays as usize);
+        let expected = self.shoot_spiral(rays, &Density::uniform(grid), &cells, &mut cell_of_ray)?;
+        Ok(Leaves::from_cells(cells, &cell_of_ray, expected, 0))
+    }
+
+    /// A pilot, and the rays that it asks for; `discard` leaves its own rays out of the estimate.
+    fn piloted(
+        &mut self,
+        cells: Vec<Cell>,
+        grid: [u32; 2],
+        pilot: &Pilot,
+        discard: bool,
+    ) -> Result<Leaves, GatherError> {
+        let mut cell_of_ray = Vec::new();
+        let mut expected = self.shoot_spiral(pilot.rays(), &Density::uniform(grid), &cells, &mut cell_of_ray)?;
+        let leaves = Leaves::from_cells(cells.clone(), &cell_of_ray, Vec::new(), 0);
+        let scatter: Vec<Scatter> = cells
+            .iter()
+            .zip(leaves.members())
+            .map(|(cell, members)| {
+                Scatter::of(cell.projected_solid_angle(), members.iter().map(|&ray| self.shots[ray as usize].y))
+            })
+            .collect();
+        let mut discarded = 0;
+        if let Some((density, rays)) = pilot.plan(&scatter, grid, discard) {
+            expected = self.shoot_spiral(rays, &density, &cells, &mut cell_of_ray)?;
+            discarded = if discard { pilot.rays() as usize } else { 0 };
+        }
+        Ok(Leaves::from_cells(cells, &cell_of_ray, expected, discarded))
     }
 
     /// The first point of a new sequence in a cell.

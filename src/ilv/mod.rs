@@ -14,8 +14,8 @@
 //! (2) n·Φ is the luminance of E, to within rounding: `tests/light_vector_laws.rs`.
 //! (3) A dark hemisphere is homogeneous, its light vector zero: `tests/light_vector_laws.rs`.
 //! (4) The same seed gives the same bits: `tests/light_vector_laws.rs`.
-//! (5) A cache answers with its record at the record's own place, to one ulp, and never for the far side of a surface:
-//!     `tests/cache_laws.rs`.
+//! (5) A cache answers with its record at the record's own place, to one ulp, if it is the only one there, and never for the far
+//!     side of a surface or of a wall: `tests/cache_laws.rs`.
 //! (6) The sampler of the paper takes, ray by ray, the decisions that a plain replay takes: `tests/paper_replay.rs`.
 //!
 //! # Known
@@ -31,25 +31,39 @@
 
 mod cache;
 mod cell;
+mod fences;
 mod frame;
 mod gather;
+mod gradient;
+mod interpolation;
 mod luminance;
+mod pilot;
+mod record;
 mod refinement;
 mod sampler;
 mod source;
+mod spiral;
+#[cfg(feature = "serde")]
+mod stored;
 mod sum;
+mod validate;
 mod validity;
 mod vector;
 mod weights;
+mod workspace;
 
 pub use cache::{Cache, CacheError};
 pub use cell::{Cell, CellMap};
 pub use frame::{Frame, FrameError};
 pub use gather::{Gather, GatherError, Ray};
+pub use interpolation::{Estimate, Vicinity};
 pub use luminance::{LUMINANCE_WEIGHTS, luminance};
+pub use pilot::{Pilot, PilotError};
 pub use refinement::{Refinement, RefinementError, Reuse};
 pub use sampler::{AdaptiveSampler, Points, SamplerError};
 pub use source::{RadianceSource, Sample};
+pub use validate::GatherDefect;
 pub use validity::{Validity, ValidityError};
 pub use vector::LightVector;
 pub use weights::Weights;
+pub use workspace::Workspace;

@@ -2,24 +2,34 @@
 
 use core::fmt;
 
+use super::LightVector;
+
 /// The rule that decides where a record of the cache may be used.
 ///
 /// # Model
 /// A record at xᵢ with normal nᵢ and validity radius Rᵢ has, seen from the point x with normal n, the error
-/// ε = |x − xᵢ|/Rᵢ + √(1 − n·nᵢ), the root computed as |n − nᵢ|/√2; it is used where ε < `accuracy`, n·nᵢ ≥ 1/2, and x is not in front of it:
-/// (x − xᵢ)·(n + nᵢ)/2 ≥ −Rᵢ/100. Its weight 1/ε − 1/`accuracy` fades to zero at the border. Rᵢ is the harmonic mean
-/// distance of the surfaces around, kept between `minimum` and `maximum` and from growing faster than the distance to
-/// another record.
+/// ε = |x − xᵢ|/Rᵢ + √(1 − n·nᵢ), the root computed as |n − nᵢ|/√2. It is used where ε < `accuracy`, n·nᵢ ≥ 1/2, x is not
+/// in front of it, (x − xᵢ)·(n + nᵢ)/2 ≥ −Rᵢ/100, and no wall that its rays met stands between. Its weight
+/// `accuracy` − ε fades to zero at the border.
+///
+/// Rᵢ is the harmonic mean distance of the surfaces around or, if that is less, the distance over which the gradient of the
+/// record changes the irradiance by [`STEEPNESS`](Self::STEEPNESS) times the mean of the records so far: an error counts by
+/// its size, and bright places have larger ones. It is kept between `minimum` and `maximum`, and from growing faster than the
+/// distance to another record.
+///
+/// A record answers with E (n·Φ)/(nᵢ·Φ) + ∇E·(x − xᵢ), the quotient cut to [0, 2], the sum at least E/20. Without
+/// [`gradients`](Self::gradients) there is neither ∇E nor its bound on the radius.
 ///
 /// # Source
 /// Ward, Rubinstein and Clear, *A Ray Tracing Solution for Diffuse Interreflection* (1988), for the error and the front
-/// test; Křivánek, Bouatouch, Pattanaik and Žára, *Making Radiance and Irradiance Caching Practical* (2006), for the
-/// bounded growth.
+/// test; Ward and Heckbert, *Irradiance Gradients* (1992); Křivánek, Bouatouch, Pattanaik and Žára, *Making Radiance and
+/// Irradiance Caching Practical* (2006), for the bounded growth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Validity {
     accuracy: f64,
     minimum: f64,
     maximum: f64,
+    gradients: bool,
 }
 
 /// Why a validity rule is refused.
@@ -73,10 +83,15 @@ impl Validity {
         if !(minimum > 0.0 && minimum <= maximum && maximum <= Self::LARGEST_RADIUS) {
             return Err(ValidityError::Radius { minimum, maximum });
         }
-        Ok(Self { accuracy, minimum, maximum })
+        Ok(Self { accuracy, minimum, maximum, gradients: true })
     }
 
-    /// The rule for a scene of the given size: radii between 1 % and 30 % of it.
+    /// The share of the mean irradiance of all records by which the gradient of a record may change it within its radius.
+    ///
+    /// Measured on pictures of two scenes at 0.3, 0.5 and 1: the smaller, the better at equal time.
+    pub const STEEPNESS: f64 = 0.3;
+
+    /// The rule for a scene of the given size: gradients, and radii between 2 % and 10 % of it.
     ///
     /// # Errors
     /// [`ValidityError`], variant by variant.
@@ -84,17 +99,38 @@ impl Validity {
     /// # Examples
     /// ```
     /// let validity = steradian::ilv::Validity::for_scene(0.3, 6.0)?;
-    /// assert!((validity.maximum() - 1.8).abs() < 1e-15);
+    /// assert!((validity.maximum() - 0.6).abs() < 1e-15);
     /// # Ok::<(), steradian::ilv::ValidityError>(())
     /// ```
     pub fn for_scene(accuracy: f64, size: f64) -> Result<Self, ValidityError> {
-        Self::new(accuracy, 0.01 * size, 0.3 * size)
+        Self::new(accuracy, 0.02 * size, 0.1 * size)
+    }
+
+    /// The same rule with translation gradients, as is the default, or without.
+    #[must_use]
+    pub fn gradients(self, gradients: bool) -> Self {
+        Self { gradients, ..self }
+    }
+
+    /// Whether records are extrapolated along their translation gradients, which then bound their radii.
+    #[must_use]
+    pub fn uses_gradients(&self) -> bool {
+        self.gradients
     }
 
     /// The error above which a record is not used.
     #[must_use]
     pub fn accuracy(&self) -> f64 {
         self.accuracy
+    }
+
+    /// The validity radius of a light vector before it meets its neighbours, among records of the given mean luminance.
+    pub(super) fn radius(&self, vector: &LightVector, mean: f64) -> f64 {
+        let mut radius = vector.mean_distance();
+        if self.gradients {
+            radius = radius.min(vector.gradient_length(Self::STEEPNESS * mean));
+        }
+        radius.clamp(self.minimum, self.maximum)
     }
 
     /// Smallest validity radius.

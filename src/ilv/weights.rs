@@ -4,8 +4,15 @@ use alloc::vec::Vec;
 
 use glam::DVec3;
 
-use super::{Cell, CellMap, Frame, LightVector, Ray, gather::Leaves, luminance, sum::Sum};
-use crate::voronoi::{self, VoronoiError};
+use super::{
+    Cell, CellMap, Frame, LightVector, Ray, Workspace,
+    fences::Fences,
+    gather::Leaves,
+    gradient, luminance,
+    pilot::{Scatter, squared_error},
+    sum::Sum,
+};
+use crate::voronoi::VoronoiError;
 
 /// The part of the hemisphere for which a ray stands, as a vector m: E = Σ L (n·m) and Φ = Σ Y m.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -27,6 +34,19 @@ pub enum Weights {
     /// the corridor, at 208 rays: 0.4 % too large, with an error a tenth smaller than by
     /// [`LeafMeasure`](Self::LeafMeasure).
     VoronoiMoment,
+    /// The projected solid angle of the ray's share of its leaf along the normal, the Voronoi moment across it.
+    ///
+    /// The irradiance is unbiased when the cells do not depend on the radiances, or when a [`Pilot`](super::Pilot) chose
+    /// them: its rays then have no part in the irradiance. The tangent part of Φ is that of
+    /// [`VoronoiMoment`](Self::VoronoiMoment).
+    MeasureAndVoronoi,
+}
+
+impl Weights {
+    /// Whether rays count with the measure of their leaf, which must then not be theirs to choose.
+    pub(super) fn shares_measures(self) -> bool {
+        matches!(self, Self::LeafMeasure | Self::MeasureAndVoronoi)
+    }
 }
 
 /// What the weights and the light vector of a gather are made from.
@@ -39,47 +59,65 @@ pub(super) struct Weighing<'a> {
 }
 
 impl Weighing<'_> {
-    /// Sets the vector weight of every ray.
-    pub(super) fn assign(&self, rays: &mut [Ray]) -> Result<(), VoronoiError> {
-        match self.weights {
-            Weights::LeafMeasure => self.share_leaves(rays),
-            Weights::VoronoiArea | Weights::VoronoiMoment => {
-                let sites: Vec<DVec3> = rays.iter().map(|ray| ray.direction).collect();
-                let dome = voronoi::hemisphere(&sites, self.frame.normal())?;
-                for (index, ray) in rays.iter_mut().enumerate() {
-                    ray.moment = if self.weights == Weights::VoronoiMoment {
-                        dome.vector_moments()[index]
-                    } else {
-                        ray.direction * dome.solid_angles()[index]
-                    };
+    /// Sets the vector weight of every ray; returns the translation gradient.
+    pub(super) fn assign(&self, rays: &mut [Ray], workspace: &mut Workspace) -> Result<[DVec3; 3], VoronoiError> {
+        if self.weights.shares_measures() {
+            self.share_leaves(rays);
+        }
+        if self.weights == Weights::LeafMeasure && self.has_one_ray_each() {
+            return Ok(gradient::of_grid(&self.leaves.cells, self.sectors, rays, self.frame));
+        }
+        let Workspace { builder, sites } = workspace;
+        sites.clear();
+        sites.extend(rays.iter().map(|ray| ray.direction));
+        let normal = self.frame.normal();
+        let dome = builder.hemisphere(sites, normal)?;
+        for (index, ray) in rays.iter_mut().enumerate() {
+            match self.weights {
+                Weights::LeafMeasure => {}
+                Weights::VoronoiArea => ray.moment = ray.direction * dome.solid_angles()[index],
+                Weights::VoronoiMoment => ray.moment = dome.vector_moments()[index],
+                Weights::MeasureAndVoronoi => {
+                    let moment = dome.vector_moments()[index];
+                    ray.moment = moment + normal * normal.dot(ray.moment - moment);
                 }
             }
         }
-        Ok(())
+        Ok(gradient::of_diagram(dome, rays, normal))
     }
 
     fn share_leaves(&self, rays: &mut [Ray]) {
         let cells = &self.leaves.cells;
         let moments: Vec<DVec3> = match cells[0].map() {
-            CellMap::SolidAngle => Vec::new(),
+            CellMap::SolidAngle | CellMap::Balanced => Vec::new(),
             CellMap::ProjectedSolidAngle if self.is_grid() => Cell::moments_of_grid(cells, self.sectors),
             CellMap::ProjectedSolidAngle => cells.iter().map(Cell::vector_moment).collect(),
         };
         for (index, members) in self.leaves.members().enumerate() {
-            let share = 1.0 / members.len() as f64;
-            let (area, moment) = match moments.get(index) {
-                Some(&moment) => (0.0, self.frame.to_world(moment) * share),
-                None => (cells[index].solid_angle() * share, DVec3::ZERO),
-            };
-            for &ray in members {
+            let share = self.leaves.expected.get(index).map_or(1.0 / members.len() as f64, |rays| rays.recip());
+            let moment = moments.get(index).map(|&moment| self.frame.to_world(moment) * share);
+            let extent = cells[index].extent() * share;
+            for &ray in self.counted(members) {
                 let ray = &mut rays[ray as usize];
-                ray.moment = ray.direction * area + moment;
+                ray.moment = moment.unwrap_or_else(|| {
+                    let cos = self.frame.normal().dot(ray.direction);
+                    ray.direction * (extent / cells[index].map().density(cos))
+                });
             }
         }
     }
 
+    /// Those rays of a leaf that count for the estimate: the first ones, in the order of shooting, may not.
+    fn counted<'b>(&self, members: &'b [u32]) -> &'b [u32] {
+        &members[members.partition_point(|&ray| (ray as usize) < self.leaves.discarded)..]
+    }
+
+    fn has_one_ray_each(&self) -> bool {
+        self.leaves.expected.is_empty() && self.is_grid() && self.leaves.members().all(|members| members.len() == 1)
+    }
+
     /// The light vector of weighed rays.
-    pub(super) fn light_vector(&self, rays: &[Ray]) -> LightVector {
+    pub(super) fn light_vector(&self, rays: &[Ray], translation_gradient: [DVec3; 3]) -> LightVector {
         let normal = self.frame.normal();
         let (mut irradiance, mut vector_irradiance) = (Sum::default(), Sum::default());
         let mut weight = 0.0;
@@ -96,26 +134,38 @@ impl Weighing<'_> {
         LightVector {
             irradiance: irradiance.value(),
             vector_irradiance: vector_irradiance.value(),
+            translation_gradient,
             standard_error: self.variance(rays).sqrt(),
             mean_distance: if weight_by_distance > 0.0 { weight / weight_by_distance } else { f64::INFINITY },
             rays: rays.len() as u32,
+            fences: Fences::of_rays(normal, rays.iter().map(|ray| (ray.direction, ray.distance))),
         }
     }
 
     /// Estimated variance of the luminance of the irradiance; infinite for a single ray.
     ///
     /// Leaf by leaf: its measure squared, times the scatter of the light per measure, over its number of rays. A leaf
-    /// with one ray has no scatter, and takes half the squared difference from the mean of a neighbour for it.
+    /// with one ray has no scatter, and takes that of a second difference along its ring for it. Where the rays are those
+    /// of spirals, cell by cell as a [`Pilot`](super::Pilot) puts it.
     fn variance(&self, rays: &[Ray]) -> f64 {
         if rays.len() < 2 {
             return f64::INFINITY;
+        }
+        if !self.leaves.expected.is_empty() {
+            let scatter = |(cell, members): (&Cell, &[u32])| {
+                let values = self.counted(members).iter().map(|&ray| luminance(rays[ray as usize].radiance));
+                Scatter::of(cell.projected_solid_angle(), values)
+            };
+            let cells: Vec<Scatter> = self.leaves.cells.iter().zip(self.leaves.members()).map(scatter).collect();
+            return squared_error(&cells);
         }
         let normal = self.frame.normal();
         let y = |ray: u32| luminance(rays[ray as usize].radiance);
         let w = |ray: u32| normal.dot(rays[ray as usize].moment);
         // A Voronoi weight varies with the rays but adds up over the leaf: only the radiances scatter. Over cells of
         // equal solid angle, an equal share scatters together with the cosine.
-        let cosine_scatters = self.weights == Weights::LeafMeasure && self.leaves.cells[0].map() == CellMap::SolidAngle;
+        let cosine_scatters =
+            self.weights.shares_measures() && self.leaves.cells[0].map() != CellMap::ProjectedSolidAngle;
         let of_leaf = |(cell, members): (&Cell, &[u32])| {
             let n = members.len() as f64;
             let measure =
@@ -128,8 +178,17 @@ impl Weighing<'_> {
         let leaves: Vec<_> = self.leaves.cells.iter().zip(self.leaves.members()).map(of_leaf).collect();
         let ring = if self.is_grid() { self.sectors } else { 1 };
         let variance = leaves.iter().enumerate().map(|(leaf, &(measure, mean, scatter, n))| {
-            let next = leaves[neighbour(leaf, leaves.len(), ring)].1;
-            let scatter = if n > 1.0 { scatter / (n - 1.0) } else { 0.5 * (mean - next) * (mean - next) };
+            let beside = |step| leaves[neighbour(leaf, leaves.len(), ring, step)].1;
+            let scatter = if n > 1.0 {
+                scatter / (n - 1.0)
+            } else if ring > 2 {
+                // The second difference of three independent values has six times their variance, whatever their trend.
+                let bend = beside(1) - mean + (beside(ring - 1) - mean);
+                bend * bend / 6.0
+            } else {
+                let step = beside(1) - mean;
+                0.5 * step * step
+            };
             measure * measure * scatter / n
         });
         variance.sum()
@@ -142,11 +201,11 @@ impl Weighing<'_> {
     }
 }
 
-/// A leaf beside `leaf` of `leaves`: the next one in its ring, or, where a ring has one leaf, the next ring.
-fn neighbour(leaf: usize, leaves: usize, ring: usize) -> usize {
+/// The leaf `step` further in the ring of `leaf`, or, where a ring has one leaf, the next ring.
+fn neighbour(leaf: usize, leaves: usize, ring: usize, step: usize) -> usize {
     let sector = leaf % ring;
     if ring > 1 {
-        leaf - sector + (sector + 1) % ring
+        leaf - sector + (sector + step) % ring
     } else if leaf + 1 < leaves {
         leaf + 1
     } else {

@@ -16,20 +16,24 @@
 //! Meshes, textures, file formats, and every gather but the brute-force one.
 
 mod analytic;
+mod bounces;
 pub mod bounds;
 mod camera;
 mod cornell;
 mod corridor;
 mod deviation;
 mod gather;
+mod lattice;
 mod light;
 pub mod render;
 mod room;
 mod scene;
+mod seeding;
 mod solid;
 mod source;
 mod wander;
 
+pub use bounces::Bounces;
 pub use camera::Camera;
 pub use deviation::Deviation;
 pub use gather::cosine_stratified;
