@@ -29,7 +29,7 @@ fn draw<'b>(text: &'b mut String, name: &str, curves: &Curves<'_>) -> Result<(),
     let (head, panels) = root.split_vertically(HEAD);
     head.draw(&Text::new(name.to_owned(), (60, 10), ("sans-serif", 20)))?;
     for (index, (method, _)) in curves.iter().enumerate() {
-        let at = 60 + 130 * index as i32;
+        let at = 60 + 115 * index as i32;
         head.draw(&Circle::new((at, 52), 5, method.colour.filled()))?;
         head.draw(&Text::new(method.name, (at + 10, 44), ("sans-serif", 15)))?;
     }
