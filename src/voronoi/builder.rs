@@ -43,6 +43,8 @@ pub struct Builder {
     /// A facet of each site, and the index of the site in it.
     corner_of: Vec<u32>,
     around: Vec<u32>,
+    /// The sites along the curve.
+    along: Vec<u32>,
     /// The corners of facets, and of each site their classes and what it gathers of its edges.
     facet_corners: Vec<FacetCorner>,
     classes: Vec<Class>,
@@ -107,7 +109,14 @@ impl Builder {
         }
         order::sort(sites, &mut self.keys);
         self.rays.clear();
-        self.rays.extend(self.keys.iter().map(|&key| Ray::new(sites[order::index(key)])));
+        // Far apart in memory: many loads at a time, before the work on each.
+        let mut batch = [DVec3::ZERO; BATCH];
+        for keys in self.keys.chunks(BATCH) {
+            for (site, &key) in batch.iter_mut().zip(keys) {
+                *site = sites[order::index(key)];
+            }
+            self.rays.extend(batch[..keys.len()].iter().map(|&site| Ray::new(site)));
+        }
         Ok(())
     }
 
@@ -117,8 +126,10 @@ impl Builder {
         self.diagram.reset(pole.map(|pole| pole.unit), self.rays.len());
         for (k, ray) in self.rays.iter().enumerate() {
             let owner = self.owners[self.hull.same[k] as usize];
-            self.diagram.set_site(order::index(self.keys[k]), ray.unit, owner);
+            self.diagram.push_site(order::index(self.keys[k]), ray.unit, owner);
         }
+        self.sums.clear();
+        self.sums.resize(self.rays.len(), Sum::default());
         match shape {
             Shape::Point => {
                 self.around.clear();
@@ -140,20 +151,28 @@ impl Builder {
             Shape::Solid => {
                 self.set_corners(pole.as_ref());
                 self.add_edges();
-                for site in 0..self.rays.len() as u32 {
-                    if self.hull.same[site as usize] == site {
-                        self.add_hull_cell(site, pole.as_ref());
-                    }
+                // Sites of early rounds are far from each other: cells go with all their neighbours.
+                order::merge_rounds(&self.keys, &mut self.along);
+                for k in 0..self.along.len() {
+                    self.add_hull_cell(self.along[k], pole.as_ref());
                 }
             }
         }
+        let Self { diagram, hull, sums, .. } = self;
+        for (site, &same) in hull.same.iter().enumerate() {
+            if same != site as u32 {
+                sums[site] = Sum::finished(0.0, DVec3::ZERO);
+            }
+        }
+        diagram.set_measures(|place| sums[place].measure());
     }
 
     fn add_hull_cell(&mut self, site: u32, pole: Option<&Ray>) {
         let class = self.classes[site as usize];
         match class {
             ABOVE => self.add_ordinary_cell(site),
-            BELOW => {}
+            NONE => {}
+            BELOW => self.sums[site as usize] = Sum::finished(0.0, DVec3::ZERO),
             ABOVE_AND_BELOW if self.add_clipped_cell(site, pole) => {}
             _ => {
                 self.walk_around(site);
@@ -172,13 +191,11 @@ impl Builder {
     }
 
     fn set_corners(&mut self, pole: Option<&Ray>) {
-        let Self { hull, rays, corner_of, facet_corners, classes, sums, .. } = self;
+        let Self { hull, rays, corner_of, facet_corners, classes, .. } = self;
         corner_of.clear();
         corner_of.resize(rays.len(), u32::MAX);
         classes.clear();
         classes.resize(rays.len(), 0);
-        sums.clear();
-        sums.resize(rays.len(), Sum::default());
         facet_corners.clear();
         let pole = pole.map(|pole| pole.unit);
         for (f, facet) in hull.facets.iter_mut().enumerate() {
@@ -246,23 +263,21 @@ impl Builder {
 
     fn add_ordinary_cell(&mut self, site: u32) {
         let Self { hull, owners, corner_of, facet_corners, diagram, sums, .. } = self;
-        let index = owners[site as usize] as usize;
-        let sum = &sums[site as usize];
-        diagram.set_measure(index, sum.solid_angle(), sum.vector_moment());
+        let sum = &mut sums[site as usize];
+        *sum = Sum::finished(sum.solid_angle(), sum.vector_moment());
         let outline = diagram.start_outline();
         Self::each_edge(hull, corner_of[site as usize], |has_length, before, _, neighbor| {
             if has_length {
                 diagram.push_edge(owners[neighbor as usize], facet_corners[before].unit);
             }
         });
-        diagram.end_outline(index, outline);
+        diagram.end_outline(site as usize, outline);
     }
 
     /// Adds a cell of ordinary corners on both sides of the horizon, unless it is too narrow.
     fn add_clipped_cell(&mut self, site: u32, pole: Option<&Ray>) -> bool {
         let Self { hull, rays, owners, corner_of, facet_corners, diagram, sums, .. } = self;
         let (Some(pole), ray) = (pole, &rays[site as usize]) else { return false };
-        let index = owners[site as usize] as usize;
         let mut sum = sums[site as usize];
         let outline = diagram.start_outline();
         let mut gap = [DVec3::ZERO; 2];
@@ -298,8 +313,8 @@ impl Builder {
             diagram.drop_outline(outline);
             return false;
         }
-        diagram.end_outline(index, outline);
-        diagram.set_measure(index, solid_angle, sum.vector_moment());
+        diagram.end_outline(site as usize, outline);
+        sums[site as usize] = Sum::finished(solid_angle, sum.vector_moment());
         true
     }
 
@@ -315,19 +330,18 @@ impl Builder {
 
     /// Adds the cell of `site` with the neighbours `around`.
     fn add_cell(&mut self, site: u32, pole: Option<&Ray>) {
-        let Self { rays, owners, cell, corners, diagram, around, .. } = self;
+        let Self { rays, owners, cell, corners, diagram, around, sums, .. } = self;
         let view = View { site: &rays[site as usize], rays, pole };
         match pole {
             None => cell.set_outline(&view, around),
             Some(_) => cell.cut_with_horizon(&view, around),
         }
         let (solid_angle, vector_moment) = measure(&view, cell, corners);
-        let index = owners[site as usize] as usize;
-        diagram.set_measure(index, solid_angle, vector_moment);
+        sums[site as usize] = Sum::finished(solid_angle, vector_moment);
         if !cell.empty {
             let name = |id: u32| if id == HORIZON { HORIZON } else { owners[id as usize] };
             let corners = corners.iter().map(|corner| corner.unit);
-            diagram.push_outline(index, cell.edges.iter().map(|edge| name(edge.id)), corners);
+            diagram.push_outline(site as usize, cell.edges.iter().map(|edge| name(edge.id)), corners);
         }
     }
 }
@@ -337,6 +351,9 @@ fn crossing(above: DVec3, below: DVec3, pole: DVec3) -> DVec3 {
     let point = above * -below.dot(pole) + below * above.dot(pole);
     (point - pole * point.dot(pole)).normalize()
 }
+
+/// Number of sites that are loaded at a time.
+const BATCH: usize = 64;
 
 /// Corners of ordinary facets that are farther apart than this, over their distance from a site, are two.
 const SURE_LENGTH: f64 = 1.0 / (1u64 << 40) as f64;
@@ -348,6 +365,9 @@ const NARROW: f64 = 1.0 / 64.0;
 const NEXT: [(u32, u32); 3] = [(1, 2), (2, 0), (0, 1)];
 
 const ABOVE_AND_BELOW: Class = ABOVE | BELOW;
+
+/// Of a site without a cell of its own.
+const NONE: Class = 0;
 
 #[cfg(test)]
 mod tests {

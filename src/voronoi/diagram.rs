@@ -12,18 +12,20 @@ pub const HORIZON: u32 = u32::MAX;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Diagram {
     pole: Option<DVec3>,
-    sites: Vec<DVec3>,
-    owners: Vec<u32>,
     solid_angles: Vec<f64>,
     vector_moments: Vec<DVec3>,
-    outlines: Vec<Outline>,
+    /// Where the record of each site is.
+    places: Vec<u32>,
+    records: Vec<Record>,
     neighbors: Vec<u32>,
     vertices: Vec<DVec3>,
 }
 
-/// Where the edges and corners of a cell are in the arrays of all.
+/// A site, and where its edges and corners are in the arrays of all.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Outline {
+struct Record {
+    direction: DVec3,
+    owner: u32,
     edges: u32,
     corners: u32,
     edge_count: u32,
@@ -40,12 +42,12 @@ pub struct Cell<'a> {
 impl Diagram {
     /// Number of sites; each has a cell, if an empty one.
     pub fn len(&self) -> usize {
-        self.sites.len()
+        self.places.len()
     }
 
     /// Whether there is no site: true only of [`Diagram::default`].
     pub fn is_empty(&self) -> bool {
-        self.sites.is_empty()
+        self.places.is_empty()
     }
 
     /// The cell of site `index`.
@@ -78,35 +80,31 @@ impl Diagram {
         self.pole
     }
 
-    /// The directions of the sites, unit vectors.
-    pub(super) fn sites(&self) -> &[DVec3] {
-        &self.sites
+    fn record(&self, index: usize) -> &Record {
+        &self.records[self.places[index] as usize]
     }
 
     /// Makes room for the cells of `len` sites, all empty.
     pub(super) fn reset(&mut self, pole: Option<DVec3>, len: usize) {
-        fn blank<T: Clone + Default>(values: &mut Vec<T>, len: usize) {
-            values.clear();
-            values.resize(len, T::default());
-        }
         self.pole = pole;
-        blank(&mut self.sites, len);
-        blank(&mut self.owners, len);
-        blank(&mut self.solid_angles, len);
-        blank(&mut self.vector_moments, len);
-        blank(&mut self.outlines, len);
+        self.places.resize(len, 0);
+        self.records.clear();
         self.neighbors.clear();
         self.vertices.clear();
     }
 
-    pub(super) fn set_site(&mut self, index: usize, direction: DVec3, owner: u32) {
-        self.sites[index] = direction;
-        self.owners[index] = owner;
+    /// Adds the record of site `index` after the others.
+    pub(super) fn push_site(&mut self, index: usize, direction: DVec3, owner: u32) {
+        self.places[index] = self.records.len() as u32;
+        self.records.push(Record { direction, owner, ..Record::default() });
     }
 
-    pub(super) fn set_measure(&mut self, index: usize, solid_angle: f64, vector_moment: DVec3) {
-        self.solid_angles[index] = solid_angle;
-        self.vector_moments[index] = vector_moment;
+    /// Sets all solid angles and vector moments, of which `measure` gives those of a record.
+    pub(super) fn set_measures(&mut self, measure: impl Fn(usize) -> (f64, DVec3)) {
+        self.solid_angles.clear();
+        self.solid_angles.extend(self.places.iter().map(|&place| measure(place as usize).0));
+        self.vector_moments.clear();
+        self.vector_moments.extend(self.places.iter().map(|&place| measure(place as usize).1));
     }
 
     /// Where the next outline starts.
@@ -128,33 +126,27 @@ impl Diagram {
         self.vertices.truncate(self.vertices.len() - count);
     }
 
-    /// Gives a cell all edges since `start`.
-    pub(super) fn end_outline(&mut self, index: usize, start: usize) {
+    /// Gives the cell of a record all edges since `start`.
+    pub(super) fn end_outline(&mut self, place: usize, start: usize) {
         let count = self.neighbors.len() - start;
-        self.outlines[index] = Outline {
-            edges: start as u32,
-            corners: (self.vertices.len() - count) as u32,
-            edge_count: count as u32,
-            corner_count: count as u32,
-        };
+        let record = &mut self.records[place];
+        (record.edges, record.edge_count) = (start as u32, count as u32);
+        (record.corners, record.corner_count) = ((self.vertices.len() - count) as u32, count as u32);
     }
 
-    /// Gives a cell its outline, after those of all cells before.
+    /// Gives the cell of a record its outline, after those of all cells before.
     pub(super) fn push_outline(
         &mut self,
-        index: usize,
+        place: usize,
         neighbors: impl Iterator<Item = u32>,
         vertices: impl Iterator<Item = DVec3>,
     ) {
         let (edges, corners) = (self.neighbors.len() as u32, self.vertices.len() as u32);
         self.neighbors.extend(neighbors);
         self.vertices.extend(vertices);
-        self.outlines[index] = Outline {
-            edges,
-            corners,
-            edge_count: self.neighbors.len() as u32 - edges,
-            corner_count: self.vertices.len() as u32 - corners,
-        };
+        let record = &mut self.records[place];
+        (record.edges, record.edge_count) = (edges, self.neighbors.len() as u32 - edges);
+        (record.corners, record.corner_count) = (corners, self.vertices.len() as u32 - corners);
     }
 }
 
@@ -166,12 +158,12 @@ impl<'a> Cell<'a> {
 
     /// Lowest index of a site with the same direction: the one whose cell is not empty. Mostly `site()` itself.
     pub fn owner(&self) -> usize {
-        self.diagram.owners[self.index] as usize
+        self.diagram.record(self.index).owner as usize
     }
 
     /// Direction of the site, a unit vector.
     pub fn direction(&self) -> DVec3 {
-        self.diagram.sites[self.index]
+        self.diagram.record(self.index).direction
     }
 
     /// Solid angle in steradians, in [0, 4π]; 0 if the cell is empty or another site owns it.
@@ -199,7 +191,7 @@ impl<'a> Cell<'a> {
     ///
     /// [`CORNER_ERROR`](super::CORNER_ERROR).
     pub fn vertices(&self) -> &'a [DVec3] {
-        let outline = self.diagram.outlines[self.index];
+        let outline = self.diagram.record(self.index);
         &self.diagram.vertices[outline.corners as usize..][..outline.corner_count as usize]
     }
 
@@ -207,7 +199,7 @@ impl<'a> Cell<'a> {
     ///
     /// A hemisphere has one edge though no corner.
     pub fn neighbors(&self) -> &'a [u32] {
-        let outline = self.diagram.outlines[self.index];
+        let outline = self.diagram.record(self.index);
         &self.diagram.neighbors[outline.edges as usize..][..outline.edge_count as usize]
     }
 }
@@ -215,13 +207,12 @@ impl<'a> Cell<'a> {
 #[cfg(test)]
 impl Diagram {
     /// Capacities of the buffers, for the test that a warm builder keeps them.
-    pub(super) fn buffers(&self) -> [usize; 7] {
+    pub(super) fn buffers(&self) -> [usize; 6] {
         [
-            self.sites.capacity(),
-            self.owners.capacity(),
             self.solid_angles.capacity(),
             self.vector_moments.capacity(),
-            self.outlines.capacity(),
+            self.places.capacity(),
+            self.records.capacity(),
             self.neighbors.capacity(),
             self.vertices.capacity(),
         ]

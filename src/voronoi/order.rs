@@ -27,6 +27,23 @@ pub(super) fn sort(sites: &[DVec3], keys: &mut Vec<u64>) {
     keys.sort_unstable();
 }
 
+/// Sets `places` to the places of sorted `keys` along the curve, all rounds together.
+pub(super) fn merge_rounds(keys: &[u64], places: &mut Vec<u32>) {
+    let round = |key: u64| (key >> 61) as usize;
+    let along = |key: u64| key & ((1 << 61) - 1);
+    let ends: [usize; 8] = core::array::from_fn(|r| keys.partition_point(|&key| round(key) <= r));
+    let mut at: [usize; 8] = core::array::from_fn(|r| if r == 0 { 0 } else { ends[r - 1] });
+    let head = |r: usize, at: usize| if at < ends[r] { along(keys[at]) } else { u64::MAX };
+    let mut heads: [u64; 8] = core::array::from_fn(|r| head(r, at[r]));
+    places.clear();
+    for _ in keys {
+        let r = (1..8).fold(0, |best, r| if heads[r] < heads[best] { r } else { best });
+        places.push(at[r] as u32);
+        at[r] += 1;
+        heads[r] = head(r, at[r]);
+    }
+}
+
 /// The index of a key.
 pub(super) fn index(key: u64) -> usize {
     (key & ((1 << 28) - 1)) as usize
@@ -95,6 +112,17 @@ const CURVE: [u8; 256] = {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn rounds_are_merged_along_the_curve() {
+        let sites: Vec<DVec3> = (0..2000).map(|k| DVec3::new(f64::from(k * k % 97), f64::from(k % 89), 50.0)).collect();
+        let (mut keys, mut places) = (Vec::new(), Vec::new());
+        sort(&sites, &mut keys);
+        merge_rounds(&keys, &mut places);
+        let along = |place: u32| keys[place as usize] & ((1 << 61) - 1);
+        assert!(places.len() == keys.len() && places.windows(2).all(|pair| along(pair[0]) < along(pair[1])));
+        assert!(keys.iter().any(|key| key >> 61 < 5), "there must be rounds to merge");
+    }
 
     #[test]
     fn the_curve_steps_to_the_next_cell_and_meets_all() {

@@ -160,7 +160,7 @@ impl Diagram {
             let right = tested.map(|edge| (edge, neighbors[edge])).all(|(edge, neighbor)| {
                 let height = match (self.pole(), neighbor) {
                     (Some(pole), HORIZON) => vertex.dot(pole),
-                    _ => vertex.dot(self.sites()[site] - self.sites()[neighbor as usize]),
+                    _ => vertex.dot(cell.direction() - self.cell(neighbor as usize).direction()),
                 };
                 height >= -CORNER_ERROR && (height <= CORNER_ERROR || edge != corner && edge != before)
             });
