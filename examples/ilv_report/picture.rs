@@ -49,6 +49,8 @@ fn draw<'b>(text: &'b mut String, name: &str, curves: &Curves<'_>) -> Result<(),
         chart
             .configure_mesh()
             .light_line_style(TRANSPARENT)
+            .x_labels(4)
+            .x_label_formatter(&|x| format!("{x:.0}"))
             .x_desc(x_name)
             .y_desc(y_name)
             .label_style(("sans-serif", 13))
