@@ -45,7 +45,7 @@ fn samplers() -> Vec<(&'static str, AdaptiveSampler)> {
         ("paper, fresh batches", AdaptiveSampler::paper().refinement(Some(fresh)).unwrap()),
         ("fixed 8 x 8", AdaptiveSampler::fixed(8, 8).unwrap()),
         ("stratified 60", AdaptiveSampler::stratified(60).unwrap()),
-        ("stratified 60, low discrepancy", AdaptiveSampler::stratified(60).unwrap().points(Points::LowDiscrepancy)),
+        ("lattice 60", AdaptiveSampler::lattice(60).unwrap()),
         ("independent 40", independent(40)),
     ]
 }
@@ -216,7 +216,7 @@ fn samplers_that_do_not_look_are_unbiased() {
     for (name, sampler) in [
         ("fixed", AdaptiveSampler::fixed(12, 6).unwrap()),
         ("stratified", AdaptiveSampler::stratified(72).unwrap()),
-        ("stratified, low discrepancy", AdaptiveSampler::stratified(72).unwrap().points(Points::LowDiscrepancy)),
+        ("stratified in step", AdaptiveSampler::stratified(72).unwrap().points(Points::LowDiscrepancy)),
         ("independent", independent(72)),
     ] {
         let estimates: Vec<DVec3> = (0..u64::from(seeds::cases(2000)))
@@ -240,6 +240,7 @@ fn the_standard_error_is_the_scatter_of_gathers_or_as_much_more_as_was_measured(
         ("fixed 8 x 8", AdaptiveSampler::fixed(8, 8).unwrap()),
         ("fixed 1 x 64", AdaptiveSampler::fixed(1, 64).unwrap()),
         ("stratified 208", AdaptiveSampler::stratified(208).unwrap()),
+        ("lattice 208", AdaptiveSampler::lattice(208).unwrap()),
         ("paper", AdaptiveSampler::paper()),
         ("spiral 208", AdaptiveSampler::spiral(208).unwrap()),
         ("sequential", AdaptiveSampler::sequential()),

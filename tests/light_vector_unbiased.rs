@@ -60,6 +60,7 @@ fn unbiased_samplers() -> Vec<(&'static str, AdaptiveSampler)> {
         ("spiral", AdaptiveSampler::spiral(50).unwrap()),
         ("spiral, balanced cells", AdaptiveSampler::spiral(50).unwrap().map(CellMap::Balanced)),
         ("stratified", AdaptiveSampler::stratified(50).unwrap()),
+        ("lattice", AdaptiveSampler::lattice(50).unwrap()),
         (
             "stratified, Voronoi directions",
             AdaptiveSampler::stratified(50).unwrap().weights(Weights::MeasureAndVoronoi),

@@ -24,11 +24,16 @@ fn piloted(sampler: AdaptiveSampler) -> Result<Vec<AdaptiveSampler>, Box<dyn Err
 }
 
 /// Every method of the report.
-pub const METHODS: [Method; 7] = [
+pub const METHODS: [Method; 8] = [
     Method {
         name: "stratified",
         colour: RGBColor(20, 20, 20),
         samplers: || Ok(RAYS.iter().map(|&rays| AdaptiveSampler::stratified(rays)).collect::<Result<_, _>>()?),
+    },
+    Method {
+        name: "lattice",
+        colour: RGBColor(230, 159, 0),
+        samplers: || Ok(RAYS.iter().map(|&rays| AdaptiveSampler::lattice(rays)).collect::<Result<_, _>>()?),
     },
     Method {
         name: "fixed",

@@ -29,7 +29,7 @@ fn draw<'b>(text: &'b mut String, name: &str, curves: &Curves<'_>) -> Result<(),
     let (head, panels) = root.split_vertically(HEAD);
     head.draw(&Text::new(name.to_owned(), (60, 10), ("sans-serif", 20)))?;
     for (index, (method, _)) in curves.iter().enumerate() {
-        let at = 60 + 130 * index as i32;
+        let at = 60 + 115 * index as i32;
         head.draw(&Circle::new((at, 52), 5, method.colour.filled()))?;
         head.draw(&Text::new(method.name, (at + 10, 44), ("sans-serif", 15)))?;
     }
@@ -49,6 +49,8 @@ fn draw<'b>(text: &'b mut String, name: &str, curves: &Curves<'_>) -> Result<(),
         chart
             .configure_mesh()
             .light_line_style(TRANSPARENT)
+            .x_labels(4)
+            .x_label_formatter(&|x| format!("{x:.0}"))
             .x_desc(x_name)
             .y_desc(y_name)
             .label_style(("sans-serif", 13))

@@ -14,7 +14,7 @@ use super::{
     pilot::{Density, Scatter},
     refinement::Homogeneity,
     sampler::Plan,
-    spiral::Spiral,
+    spiral::{GOLDEN, Spiral},
     weights::Weighing,
 };
 use crate::{sprt::Decision, voronoi::VoronoiError};
@@ -224,7 +224,7 @@ impl AdaptiveSampler {
         let mut tracing = Tracing { frame, points: self.points, source, reflectance, rng, shots: Vec::new() };
         let cells = self.base_cells();
         let leaves = match &self.plan {
-            Plan::OneEach => tracing.one_ray_each(cells.collect())?,
+            Plan::OneEach => tracing.one_ray_each(cells.collect(), self.grid[1] as usize)?,
             Plan::Spiral(rays) => tracing.spiral(cells.collect(), self.grid, *rays)?,
             Plan::Sequential(rule) => tracing.refine(cells, rule)?,
             Plan::Piloted(pilot) => {
@@ -237,8 +237,9 @@ impl AdaptiveSampler {
                 rays[ray as usize].cell = index as u32;
             }
         }
-        let weighing =
-            Weighing { weights: self.weights, sectors: self.grid[1] as usize, frame: &frame, leaves: &leaves };
+        let in_step = matches!(self.plan, Plan::OneEach) && self.points == Points::LowDiscrepancy;
+        let sectors = self.grid[1] as usize;
+        let weighing = Weighing { weights: self.weights, sectors, in_step, frame: &frame, leaves: &leaves };
         let gradient = weighing.assign(&mut rays, workspace).map_err(GatherError::Voronoi)?;
         let vector = weighing.light_vector(&rays, gradient);
         Ok(Gather { frame, cells: leaves.cells, rays, vector })
@@ -344,10 +345,17 @@ where
         Branch { cell, rays, tested, sequence: (start, 0) }
     }
 
-    fn one_ray_each(&mut self, cells: Vec<Cell>) -> Result<Leaves, GatherError> {
+    fn one_ray_each(&mut self, cells: Vec<Cell>, sectors: usize) -> Result<Leaves, GatherError> {
         self.shots.reserve_exact(cells.len());
-        for cell in &cells {
-            let s = self.first_point();
+        let start = match self.points {
+            Points::Random => None,
+            Points::LowDiscrepancy => Some(self.first_point()),
+        };
+        for (index, cell) in cells.iter().enumerate() {
+            let s = match start {
+                None => self.first_point(),
+                Some(start) => golden_point(start, index / sectors, index % sectors),
+            };
             self.shoot(cell, s)?;
         }
         let members: Vec<u32> = (0..cells.len() as u32).collect();
@@ -510,6 +518,16 @@ where
 
 fn is_colour(rgb: DVec3) -> bool {
     rgb.to_array().iter().all(|x| (0.0..=Gather::BRIGHTEST).contains(x))
+}
+
+/// The point of a cell of a grid whose points, along a ring, climb in golden steps, and whose rings turn against each other
+/// in golden steps: every strip of the grid has its points evenly across. Uniform in the cell when `start` is.
+fn golden_point(start: [f64; 2], ring: usize, sector: usize) -> [f64; 2] {
+    let fraction = |start: f64, steps: usize| {
+        let x = start + steps as f64 * GOLDEN;
+        x - x.floor()
+    };
+    [fraction(start[0], sector), fraction(start[1], ring)]
 }
 
 /// The next point of the R2 sequence: multiples of the inverse of the plastic number and of its square, modulo 1.

@@ -16,11 +16,15 @@
 //! (4) The same seed gives the same bits: `tests/light_vector_laws.rs`.
 //! (5) A cache answers with its record at the record's own place, to one ulp, if it is the only one there, and never for the far
 //!     side of a surface or of a wall: `tests/cache_laws.rs`.
-//! (6) The sampler of the paper takes, ray by ray, the decisions that a plain replay takes: `tests/paper_replay.rs`.
+//! (6) What claims to be unbiased is so over ten thousand light vectors: `tests/light_vector_unbiased.rs`.
+//! (7) The translation gradient is that of closed forms, exactly zero where the light is the same from everywhere, and
+//!     always a number: `tests/light_vector_gradient.rs`.
+//! (8) The sampler of the paper takes, ray by ray, the decisions that a plain replay takes: `tests/paper_replay.rs`.
 //!
 //! # Known
 //! Voronoi weights are exact in a constant field and lower the scatter in others, but they are biased: a cell reaches over
-//! to where its ray has not been. Deciding where to sample by the samples adds to it. [`Weights`] has the figures.
+//! to where its ray has not been. Deciding where to sample by the samples adds to it. [`Weights`] and `docs/ilv.md` have the figures;
+//! [`AdaptiveSampler::unbiased`], [`lattice`](AdaptiveSampler::lattice) and [`spiral`](AdaptiveSampler::spiral) have no such bias.
 //!
 //! # Not here
 //! Geometry, materials and cameras: the tracer that puts this module to the test stands in `tests/tracer/`.

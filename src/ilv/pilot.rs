@@ -225,3 +225,79 @@ fn share(lengths: impl Iterator<Item = f64>, mut x: f64) -> (usize, f64) {
     }
     last
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cells(variances: [f64; 4]) -> Vec<Scatter> {
+        variances.map(|variance| Scatter { measure: 0.5, rays: 20.0, mean: 1.0, variance }).to_vec()
+    }
+
+    #[test]
+    fn what_is_no_pilot_is_refused() {
+        assert_eq!(Pilot::new(23, 0.1, 100), Err(PilotError::Rays { rays: 23 }));
+        assert_eq!(
+            Pilot::new(Pilot::MOST_RAYS + 1, 0.1, 100).map_err(|error| matches!(error, PilotError::Rays { .. })),
+            Err(true)
+        );
+        for tolerance in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(matches!(Pilot::new(80, tolerance, 100), Err(PilotError::Tolerance { .. })), "{tolerance}");
+        }
+        assert_eq!(Pilot::new(80, 0.1, 0), Err(PilotError::Most { most: 0 }));
+        assert_eq!(Pilot::new(80, 0.03, 640), Ok(Pilot::DEFAULT));
+    }
+
+    #[test]
+    fn a_smaller_tolerance_takes_more_rays_up_to_the_limit() {
+        let scatter = cells([1.0, 4.0, 0.0, 9.0]);
+        let rays = |tolerance| {
+            let plan = Pilot::new(80, tolerance, 500).unwrap().plan(&scatter, [2, 2], false);
+            plan.map_or(0, |(_, rays)| rays)
+        };
+        let taken: Vec<u32> = [1.0, 0.1, 0.05, 0.03, 0.01, 1e-9].map(rays).to_vec();
+        assert!(taken.windows(2).all(|pair| pair[0] <= pair[1]), "{taken:?}");
+        assert_eq!((taken[0], taken[5]), (0, 500));
+    }
+
+    #[test]
+    fn a_plan_meets_the_tolerance_by_its_own_formula_and_with_no_ray_to_spare() {
+        let scatter = cells([1.0, 4.0, 0.25, 9.0]);
+        let pilot = Pilot::new(80, 0.02, 5000).unwrap();
+        let (density, rays) = pilot.plan(&scatter, [2, 2], true).unwrap();
+        let error = |rays: u32| {
+            let planned: Vec<Scatter> = scatter
+                .iter()
+                .zip(density.weights())
+                .map(|(cell, weight)| Scatter { rays: weight * f64::from(rays) / 4.0, ..*cell })
+                .collect();
+            squared_error(&planned).sqrt() / 2.0
+        };
+        assert!(error(rays) <= 0.02 && error(rays - 1) > 0.02, "{rays}: {} {}", error(rays), error(rays - 1));
+    }
+
+    #[test]
+    fn a_dark_or_even_field_is_left_with_its_pilot() {
+        assert!(Pilot::DEFAULT.plan(&cells([0.0; 4]), [2, 2], false).is_none());
+        let (density, rays) = Pilot::DEFAULT.plan(&cells([0.0; 4]), [2, 2], true).unwrap();
+        assert_eq!((density.weights(), rays), (&[1.0; 4][..], Pilot::FEWEST_RAYS));
+    }
+
+    #[test]
+    fn every_cell_gets_its_share_of_the_square() {
+        let density = Density::of(&cells([1.0, 4.0, 0.0, 9.0]), [2, 2]);
+        assert!((density.weights().iter().sum::<f64>() - 4.0).abs() < 1e-14);
+        let n = 400;
+        let mut counts = [0.0; 4];
+        for i in 0..n * n {
+            let p = [f64::from(i / n) + 0.5, f64::from(i % n) + 0.5].map(|x| x / f64::from(n));
+            let (cell, s) = density.place(p);
+            assert!(s.iter().all(|x| (0.0..=1.0).contains(x)));
+            counts[cell] += 4.0 / f64::from(n * n);
+        }
+        for (count, weight) in counts.iter().zip(density.weights()) {
+            assert!((count - weight).abs() < 0.01, "{counts:?}");
+        }
+        assert_eq!(density.place([1.0, 1.0]), (3, [1.0, 1.0]));
+    }
+}

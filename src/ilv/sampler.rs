@@ -10,8 +10,9 @@ use super::{CellMap, Pilot, Refinement, Weights};
 pub enum Points {
     /// Independent and uniform in the cell.
     Random,
-    /// The R2 sequence from a random start in each cell (Roberts, *The Unreasonable Effectiveness of Quasirandom
-    /// Sequences*, 2018).
+    /// Where cells have several rays, the R2 sequence from a random start in each (Roberts, *The Unreasonable Effectiveness
+    /// of Quasirandom Sequences*, 2018). Where each has one, golden steps across the cells of a ring and from ring to
+    /// ring, from one random start for all: see [`AdaptiveSampler::lattice`].
     LowDiscrepancy,
 }
 
@@ -45,6 +46,7 @@ pub struct AdaptiveSampler {
 }
 
 /// How many rays go where.
+#[allow(clippy::large_enum_variant, reason = "a sampler is made once, and stays Copy")]
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Plan {
     /// One in each cell of the grid.
@@ -85,9 +87,13 @@ impl core::error::Error for SamplerError {}
 
 impl Default for AdaptiveSampler {
     /// A pilot of 80 rays on a golden spiral, a second spiral where they scatter until the standard error is expected to be
-    /// TOLERANCE of the irradiance, and Voronoi moments of all rays.
+    /// 3 % of the irradiance, and Voronoi moments of all rays.
     ///
-    /// DEFAULT-FIGURES
+    /// On points of three test scenes it takes 250, 158 and 243 rays, with 0.69, 0.74 and 0.73 times the error of cosine
+    /// stratification with as many, in irradiance, and 0.23, 0.20 and 0.36 times in direction; it is biased by 0.1 % to
+    /// 0.4 %. A constant field is exact after the pilot. What it cannot see is what the pilot missed: a lone source of a
+    /// hundredth of the hemisphere is 4 % too dark in the mean. Where rays are cheap, as they are there, more of a
+    /// [`lattice`](AdaptiveSampler::lattice) give a smaller error in the same time: `docs/ilv.md` has the tables.
     fn default() -> Self {
         Self {
             map: CellMap::Balanced,
@@ -109,7 +115,8 @@ impl AdaptiveSampler {
     /// The sampler of [`default`](Self::default) with an unbiased irradiance: the pilot only plans, and the rays that
     /// follow count with the inverse of their density.
     ///
-    /// UNBIASED-FIGURES
+    /// Over ten thousand light vectors no bias is seen (`tests/light_vector_unbiased.rs`). It takes about 80 rays more than
+    /// the default, and has 1.0, 0.9 and 0.7 times the error of cosine stratification with as many in the test scenes.
     #[must_use]
     pub fn unbiased() -> Self {
         Self::default().map(CellMap::ProjectedSolidAngle).weights(Weights::MeasureAndVoronoi)
@@ -117,7 +124,9 @@ impl AdaptiveSampler {
 
     /// A golden spiral of `rays` rays that looks at nothing: the irradiance is unbiased, E = π/n Σ L.
     ///
-    /// SPIRAL-FIGURES
+    /// On points of three test scenes, at 208 rays, the error is 0.69, 0.66 and 0.60 times that of cosine stratification
+    /// in irradiance, 0.39, 0.22 and 0.53 times in direction. Weights and gradient take a Voronoi diagram, twice to three
+    /// times the time of the rays there; see [`lattice`](Self::lattice).
     ///
     /// # Errors
     /// As [`fixed`](Self::fixed).
@@ -129,7 +138,8 @@ impl AdaptiveSampler {
     /// The sequential test of [`paper`](Self::paper) on 3 × 4 cells of equal projected solid angle, with
     /// low-discrepancy points, risks that are real ([`Refinement::controlled`]) and Voronoi moments.
     ///
-    /// SEQUENTIAL-FIGURES
+    /// On points of three test scenes it takes 260 to 290 rays, with 1.1 to 1.3 times the error of cosine stratification
+    /// with as many, and is 0.5 % to 1.6 % too bright: real risks do not make the test of homogeneity worth its rays.
     #[must_use]
     pub fn sequential() -> Self {
         Self {
@@ -185,6 +195,21 @@ impl AdaptiveSampler {
             plan: Plan::OneEach,
             weights: Weights::LeafMeasure,
         })
+    }
+
+    /// [`stratified`](Self::stratified) with its rays in step: along a ring they climb through their cells in golden steps,
+    /// and the rings turn against each other in golden steps. Each ray is uniform in its cell, and the irradiance
+    /// unbiased.
+    ///
+    /// On points of three test scenes, at 208 rays, the error is 0.66, 0.60 and 0.64 times that of
+    /// [`stratified`](Self::stratified) in irradiance, and at 832 rays 0.58, 0.62 and 0.46 times, in the same time: there
+    /// is no Voronoi diagram. It is the sampler with the smallest error in a given time wherever a ray takes less than a
+    /// microsecond.
+    ///
+    /// # Errors
+    /// As [`fixed`](Self::fixed).
+    pub fn lattice(rays: u32) -> Result<Self, SamplerError> {
+        Ok(Self::stratified(rays)?.points(Points::LowDiscrepancy))
     }
 
     /// The same sampler with other weights.

@@ -3,7 +3,7 @@
 use rand::{Rng, RngExt};
 
 /// The golden ratio less one: no step around a circle leaves more even gaps.
-const GOLDEN: f64 = 0.618_033_988_749_894_8;
+pub(super) const GOLDEN: f64 = 0.618_033_988_749_894_8;
 
 /// A golden spiral: point i of N is ((i + a)/N, {0.618… i + b}) with a and b uniform in [0, 1).
 ///

@@ -56,6 +56,7 @@ impl LightVector {
     /// three test scenes: for the default sampler 0.97 and 0.96 to 1.09, for
     /// [`unbiased`](super::AdaptiveSampler::unbiased) 0.91 and 0.99 to 1.24, for
     /// [`spiral`](super::AdaptiveSampler::spiral) 1.5 and 1.2 to 1.5, for
+    /// [`lattice`](super::AdaptiveSampler::lattice) 1.2 and 1.1 to 2, for
     /// [`stratified`](super::AdaptiveSampler::stratified) 1.2 and 1.2, for the paper's sampler 1.3 and 1.15 to 1.2, for
     /// [`sequential`](super::AdaptiveSampler::sequential) 2.2 and 1.7 to 1.9 (`tests/light_vector_laws.rs`,
     /// `docs/ilv.md`). It knows nothing of bias. Infinite for a single ray.

@@ -49,11 +49,17 @@ impl Weights {
     }
 }
 
+/// Variance of a lattice over that of independent points in its cells: measured on points of three test scenes, at 208 and
+/// 416 rays, 0.33 to 0.5.
+const IN_STEP: f64 = 0.4;
+
 /// What the weights and the light vector of a gather are made from.
 pub(super) struct Weighing<'a> {
     pub weights: Weights,
     /// Number of cells in a ring of the base grid.
     pub sectors: usize,
+    /// Whether the rays are one in each cell, in step with each other.
+    pub in_step: bool,
     pub frame: &'a Frame,
     pub leaves: &'a Leaves,
 }
@@ -191,7 +197,8 @@ impl Weighing<'_> {
             };
             measure * measure * scatter / n
         });
-        variance.sum()
+        let variance: f64 = variance.sum();
+        if self.in_step { variance * IN_STEP } else { variance }
     }
 
     /// Whether the leaves are the cells of the base grid.

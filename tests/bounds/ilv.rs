@@ -27,6 +27,7 @@ pub const STANDARD_ERROR_RATIO: &[(&str, f64)] = &[
     ("fixed 8 x 8", 1.33),
     ("fixed 1 x 64", 1.0),
     ("stratified 208", 1.21),
+    ("lattice 208", 1.21),
     ("paper", 1.31),
     ("spiral 208", 1.52),
     ("sequential", 2.16),
