@@ -9,19 +9,16 @@ use std::{error::Error, fs, path::PathBuf};
 
 use clap::Parser;
 
-#[allow(dead_code, reason = "leaves a part of it to the tests")]
 #[path = "../../tests/oracles/fixed.rs"]
 mod fixed;
 mod formulas;
 mod measure;
 mod peer;
 mod picture;
-#[allow(dead_code, reason = "leaves a part of it to the tests")]
 #[path = "../../tests/polygons/mod.rs"]
 mod polygons;
 #[path = "../../tests/seeds/mod.rs"]
 mod seeds;
-#[allow(dead_code, reason = "leaves a part of it to the tests")]
 #[path = "../../tests/oracles/spherical.rs"]
 mod spherical;
 mod table;

@@ -83,7 +83,8 @@ fn test(gatherer: &Gatherer, cache: &Cache, square: &Square, tolerance: f64) -> 
     const VALID: &str = "the constants are those of a test";
     let sampler = AdaptiveSampler::stratified(FRESH_RAYS).expect(VALID);
     let family = Bernoulli::new(SHARES[0], SHARES[1]).expect(VALID);
-    let mut run = Sprt::new(family, Bounds::from_risks(RISK, RISK).expect(VALID)).truncate(LIMIT).start();
+    let test = Sprt::new(family, Bounds::from_risks(RISK, RISK).expect(VALID)).truncate(LIMIT);
+    let mut run = test.start();
     let pixels = lit_pixels(gatherer, square);
     let mut verdict = Verdict { agrees: true, disagreements: Vec::new(), rays: 0 };
     if pixels.is_empty() {
