@@ -5,6 +5,24 @@
 
 use super::double::{Double, Number, dot, three};
 
+/// u² = 2⁻¹⁰⁶.
+const U2: f64 = 0.25 * f64::EPSILON * f64::EPSILON;
+
+/// Absolute error of `numerator` for differences of at most 1 in each component, proved: 72 u². It scales with both lengths.
+pub const NUMERATOR_BOUND: f64 = 72.0 * U2;
+
+/// Absolute error of `norm_error` where | |v|² − 1 | is at most 2⁻⁴⁰, proved: 2⁻⁹².
+pub const NORM_BOUND: f64 = 16384.0 * U2;
+
+/// Absolute error of `denominator` where the norms are off by at most 2⁻⁴¹, proved: 2⁻⁷⁹.
+pub const DENOMINATOR_BOUND: f64 = 134_217_728.0 * U2;
+
+/// Absolute error of `denominator` where the norms are off by at most 2⁻⁵¹, proved: 2⁻⁹⁶.
+pub const NORMALISED_DENOMINATOR_BOUND: f64 = 1024.0 * U2;
+
+/// Absolute error of either part of `times` where no part exceeds 1, proved: 37 u².
+pub const PRODUCT_BOUND: f64 = 37.0 * U2;
+
 /// A complex number in double length.
 #[derive(Clone, Copy)]
 pub struct Complex<T> {
