@@ -6,14 +6,16 @@
 //! sᵢ = |Nᵢ|/|zᵢ| = |sin| of the triangle's half area and p, q its two sides at the apex, the argument is off by at most
 //!
 //! ```text
-//! E = Σ sᵢ min(δᵢ, 2⁻⁵⁷) + sᵢ min(2⁻⁹⁸ / |zᵢ|, 2⁻⁸²)    the numerators and the denominators of the factors
+//! E = Σ sᵢ min(δᵢ, 2⁻⁵⁷) + sᵢ min(η / |zᵢ|, 2¹⁶ η)       the numerators and the denominators of the factors
 //!   + 64 u² n min(1, Σ sᵢ)                                 their multiplication
 //! ```
 //!
-//! A numerator is off by 65.25 u² |p| |q| (largest components), so that δᵢ = 66 u² |p| |q| / |Nᵢ|; below 2⁻⁴² |p| |q| it is
-//! exact but for a few u² of itself, and δᵢ = 8 u². That also bounds δᵢ by 2⁻⁵⁷. A denominator is off by 2⁻⁹⁸, or by a few u²
-//! of |zᵢ| where |zᵢ| = ½ |v₀ + b| |b + c| |c + v₀| is below 2⁻¹⁶. The angle is off by 2E, by 2⁻⁶² of itself for the
-//! arctangent, and by half a unit in the last place for the rounding.
+//! A numerator is off by [`NUMERATOR_BOUND`] |p| |q| (largest components), which is δᵢ |Nᵢ|; below 2⁻⁴² |p| |q| it is exact
+//! but for a few u² of itself, and δᵢ = 8 u². That also bounds δᵢ by 2⁻⁵⁷. A denominator is off by η, which is
+//! [`NORMALISED_DENOMINATOR_BOUND`] or, where a norm is off by more than roundings, [`DENOMINATOR_BOUND`]; or by a few u² of
+//! |zᵢ| where |zᵢ| = ½ |v₀ + b| |b + c| |c + v₀| is below 2⁻¹⁶. The angle is off by 2E, by 2⁻⁶² of itself for the
+//! arctangent, and by half a unit in the last place for the rounding. The three constants are machine-checked:
+//! docs/proofs/README.md. The rest of this page is an argument on paper.
 //!
 //! # Not here
 //!
@@ -22,6 +24,7 @@
 use glam::DVec3;
 
 use super::double::Double;
+use super::kernel::{DENOMINATOR_BOUND, NORMALISED_DENOMINATOR_BOUND, NUMERATOR_BOUND};
 use super::product::unsigned;
 use super::{SolidAngleError, exact, fan, measured};
 
@@ -107,13 +110,17 @@ const SMALL: f64 = 1.0 / (1_u64 << 36) as f64;
 /// Numerators below this part of the lengths are exact in the kernel: half of its 2⁻⁴².
 const EXACT: f64 = 0.5 / (1_u64 << 42) as f64;
 
-/// What a denominator may be off, 2⁻⁹⁸, and what it may be off relative to |z|, 2⁻⁸².
-const DENOMINATOR: f64 = 256.0 * UNIT * UNIT;
-const SMALL_DENOMINATOR: f64 = DENOMINATOR * (1 << 16) as f64;
+/// Factors below 2⁻¹⁶ have their denominators to a few u²: a denominator is never off by more than this many η of |z|.
+const LARGEST_INVERSE: f64 = (1 << 16) as f64;
+
+/// | |v|² − 1 | of normalised vectors, and the most that it is known to in doubles: 2⁻⁵¹ each, | |v| − 1 | <= 2⁻⁵¹ together.
+const NORMALISED: f64 = 2.0 * f64::EPSILON;
 
 /// E of a loop of three vertices or more.
 fn argument_error(vertices: &[DVec3]) -> f64 {
     let apex = vertices[0];
+    let normalised = vertices.iter().all(|v| (v.length_squared() - 1.0).abs() <= NORMALISED);
+    let denominator = if normalised { NORMALISED_DENOMINATOR_BOUND } else { DENOMINATOR_BOUND };
     let (mut factors, mut swept) = (0.0, 0.0_f64);
     for edge in vertices[1..].windows(2) {
         let (b, c) = (edge[0], edge[1]);
@@ -128,8 +135,9 @@ fn argument_error(vertices: &[DVec3]) -> f64 {
         }
         let magnitude = 0.5 * half_turn(apex, b) * half_turn(b, c) * half_turn(c, apex);
         let sine = if numerator < magnitude { numerator / magnitude } else { 1.0 };
-        let relative = if numerator < EXACT * lengths { 8.0 } else { 66.0 * (lengths / numerator) } * UNIT * UNIT;
-        factors += sine * (relative.min(NUMERATOR) + (DENOMINATOR / magnitude).min(SMALL_DENOMINATOR));
+        let relative =
+            if numerator < EXACT * lengths { 8.0 * UNIT * UNIT } else { NUMERATOR_BOUND * (lengths / numerator) };
+        factors += sine * (relative.min(NUMERATOR) + denominator * (1.0 / magnitude).min(LARGEST_INVERSE));
         swept += sine;
     }
     factors + 64.0 * UNIT * UNIT * vertices.len() as f64 * swept.min(1.0)

@@ -17,7 +17,7 @@
 //! u = 2⁻⁵³. Every zᵢ is known to within a small part of u relative to |N| in its imaginary part and relative to |z| in
 //! its real part, whatever the shape of the triangle:
 //!
-//! - differences, products and dot products are double-length (the compensated numerator is off by at most 65.25 u² for
+//! - differences, products and dot products are double-length (the compensated numerator is off by at most 72 u² for
 //!   differences bounded by 1, and in proportion to their two lengths);
 //! - |N| below 2⁻⁴² of the lengths of the two differences is computed exactly;
 //! - the norms of the vertices enter D: vertices of 2⁻⁵² beside the unit sphere would otherwise cost a factor 2⁻⁵²/ε in an

@@ -8,19 +8,21 @@ use super::double::{Double, Number, dot, three};
 /// u² = 2⁻¹⁰⁶.
 const U2: f64 = 0.25 * f64::EPSILON * f64::EPSILON;
 
-/// Absolute error of `numerator` for differences of at most 1 in each component, proved: 72 u². It scales with both lengths.
+/// Absolute error of the compensated numerator a·((b − a)×(c − a)) of a triangle of the fan, proved: 72 u², u = 2⁻⁵³.
+///
+/// For differences of at most 1 in each component; it scales with both lengths. docs/proofs/README.md has the proofs.
 pub const NUMERATOR_BOUND: f64 = 72.0 * U2;
 
-/// Absolute error of `norm_error` where | |v|² − 1 | is at most 2⁻⁴⁰, proved: 2⁻⁹².
+/// Absolute error of the compensated |v|² − 1 of an accepted vertex, at most 2⁻⁴⁰, proved: 2⁻⁹².
 pub const NORM_BOUND: f64 = 16384.0 * U2;
 
-/// Absolute error of `denominator` where the norms are off by at most 2⁻⁴¹, proved: 2⁻⁷⁹.
+/// Absolute error of the compensated |a||b||c| + (a·b)|c| + (b·c)|a| + (c·a)|b| of accepted vertices, proved: 2⁻⁷⁹.
 pub const DENOMINATOR_BOUND: f64 = 134_217_728.0 * U2;
 
-/// Absolute error of `denominator` where the norms are off by at most 2⁻⁵¹, proved: 2⁻⁹⁶.
+/// The same where the norms are off by at most 2⁻⁵¹, as those of normalised vectors are, proved: 2⁻⁹⁶.
 pub const NORMALISED_DENOMINATOR_BOUND: f64 = 1024.0 * U2;
 
-/// Absolute error of either part of `times` where no part exceeds 1, proved: 37 u².
+/// Absolute error of either part of the product of two factors where no part exceeds 1, proved: 37 u².
 pub const PRODUCT_BOUND: f64 = 37.0 * U2;
 
 /// A complex number in double length.

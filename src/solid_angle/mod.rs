@@ -79,6 +79,7 @@ pub use bounded::{Bounded, polygon_bounded, signed_polygon_bounded};
 pub use check::UNIT_TOLERANCE;
 pub use error::SolidAngleError;
 pub use geographic::{GEOGRAPHIC_FLOOR, geographic_polygon};
+pub use kernel::{DENOMINATOR_BOUND, NORM_BOUND, NORMALISED_DENOMINATOR_BOUND, NUMERATOR_BOUND, PRODUCT_BOUND};
 pub use seen::seen_from;
 pub use winding::winding;
 
@@ -91,7 +92,8 @@ pub const ANGLE_BOUND: f64 = 0.51;
 
 /// Error of a moment in units of 2⁻⁵³ of its largest component, searched: 8.
 ///
-/// Three points that are collinear up to the last bits of their coordinates were seen at 20, a figure of eight that cancels at 7.1.
+/// In addition 2⁻¹⁰⁶ of the longest difference of two vertices: collinear triangles are smaller than what remains of them. The
+/// worst seen in 40 000 triangles and hexagons of many shapes is 4.2, a figure of eight that cancels is at 7.1.
 pub const MOMENT_BOUND: f64 = 8.0;
 
 /// Signed solid angle of the spherical triangle `a b c`, in steradians.
