@@ -24,7 +24,7 @@
 use glam::DVec3;
 
 use super::double::Double;
-use super::kernel::{DENOMINATOR_BOUND, NORMALISED_DENOMINATOR_BOUND, NUMERATOR_BOUND};
+use super::kernel::{DENOMINATOR_BOUND, NORMALISED_DENOMINATOR_BOUND, NUMERATOR_BOUND, norm_error};
 use super::product::unsigned;
 use super::{SolidAngleError, exact, fan, measured};
 
@@ -113,13 +113,13 @@ const EXACT: f64 = 0.5 / (1_u64 << 42) as f64;
 /// Factors below 2⁻¹⁶ have their denominators to a few u²: a denominator is never off by more than this many η of |z|.
 const LARGEST_INVERSE: f64 = (1 << 16) as f64;
 
-/// | |v|² − 1 | of normalised vectors, and the most that it is known to in doubles: 2⁻⁵¹ each, | |v| − 1 | <= 2⁻⁵¹ together.
-const NORMALISED: f64 = 2.0 * f64::EPSILON;
+/// Vertices whose | |v|² − 1 | is not above this have | |v| − 1 | <= 2⁻⁵¹; normalised ones are about half of it off.
+const NORMALISED: f64 = 0.999 * 4.0 * f64::EPSILON;
 
 /// E of a loop of three vertices or more.
 fn argument_error(vertices: &[DVec3]) -> f64 {
     let apex = vertices[0];
-    let normalised = vertices.iter().all(|v| (v.length_squared() - 1.0).abs() <= NORMALISED);
+    let normalised = vertices.iter().all(|v| norm_error(v.to_array()).abs() <= NORMALISED);
     let denominator = if normalised { NORMALISED_DENOMINATOR_BOUND } else { DENOMINATOR_BOUND };
     let (mut factors, mut swept) = (0.0, 0.0_f64);
     for edge in vertices[1..].windows(2) {
