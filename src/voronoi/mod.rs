@@ -34,9 +34,11 @@
 //! The error of a solid angle or of a component of a vector moment is below [`SOLID_ANGLE_ERROR`] for cells of up to 40
 //! edges (searched: tests/voronoi_oracle.rs, the worst solid angle seen is 1.4·10⁻¹⁵ off; moments against polygons:
 //! tests/voronoi_partition.rs). Cells narrower than 1/64 have their solid angle to the same bound relative (the worst seen
-//! is 7·10⁻¹⁶ of it, for cells from 10⁻⁴ down to 10⁻³³ sr); corners are within [`CORNER_ERROR`] of their edges.
+//! is 7·10⁻¹⁶ of it in the oracle's cases, for cells from 10⁻⁴ down to 10⁻³³ sr) but for the exceptions below; corners are
+//! within [`CORNER_ERROR`] of their edges.
 //!
-//! Not guaranteed: thin cells of more than 60° have the absolute bound only, and so have narrow ones with a corner of three
+//! Not guaranteed: the relative bound for cells of sites a few units in the last place apart, where fuzzing has found
+//! 2·10⁻¹⁰ (a cell of 10⁻²² sr in a cluster) and 5·10⁻⁵ (a strip of 10⁻¹⁶ × 5·10⁻³); thin cells of more than 60° have the absolute bound only, and so have narrow ones with a corner of three
 //! sites that are on one great circle to 10⁻¹³ of their distances. Components below 2⁻¹⁰²² of the largest component of
 //! their site are rounded to multiples of 2⁻¹⁰⁷⁴ of it.
 //!
@@ -48,8 +50,9 @@
 //! measured edge by edge, both cells of an edge at once, and by one arctangent; all others corner by corner, in twofold
 //! numbers where it takes them.
 //!
-//! About 0.25 µs a site for some hundreds of sites and 0.7 µs for a million, measures included; twice that on lattices,
-//! whose ties integers decide. Sites almost on one circle have sharp corners only, which cost 5 to 8 µs each.
+//! About 0.25 µs a site for some hundreds of sites and 0.7 to 1.1 µs for a million, measures included; up to 2.2 times that
+//! on lattices. Sites almost on one circle have sharp corners only, which cost 5 to 8 µs a site. A million sites take 650
+//! bytes each: docs/performance.md.
 //!
 //! # Not here
 //!
