@@ -7,7 +7,7 @@ use super::Bounds;
 /// # Model
 /// The logarithm of the ratio, in fixed point and modulo 2⁶⁴, is linear in the counts; it is between the boundaries
 /// when its distance from the lower one is at most the width. Both boundaries are moved inwards by what
-/// [`SAMPLES`] roundings may come to, so the band never says "between" of a ratio that decides; near a boundary it
+/// 2²⁴ roundings may come to, so the band never says "between" of a ratio that decides; near a boundary it
 /// says nothing, and the counts decide.
 ///
 /// The default band says nothing anywhere: it is that of families whose ratio is not one of counts.
