@@ -87,6 +87,29 @@ fn bounds_hold_and_are_narrow() {
     assert_none(&failures);
 }
 
+/// Vertices as far beside the unit sphere as they may be: their directions count, and the bound knows how far they are.
+#[test]
+fn values_and_bounds_hold_beside_the_unit_sphere() {
+    let mut failures = Vec::new();
+    for (stream, class) in classes() {
+        let mut rng = seeds::rng(200 + stream);
+        let mut worst = (0.0, String::new());
+        for _ in 0..seeds::cases(300) {
+            let beside: Vec<_> = (class.draw)(&mut rng)
+                .iter()
+                .map(|&v| v * (1.0 + rng.random_range(-0.49..0.49) * solid_angle::UNIT_TOLERANCE))
+                .collect();
+            let (want, _) = spherical::solid_angles(&directions(&beside));
+            let got = solid_angle::signed_polygon_bounded(&beside).unwrap();
+            let error = distance(got.value, &want);
+            assert!(error <= got.error, "{}, {beside:?}: {got:?}, but {} is {error:e} away", class.name, want.value());
+            note(&mut worst, error / ulp(want.value()), || format!("{beside:?}"));
+        }
+        settle("signed_polygon", class.name, worst, &mut failures);
+    }
+    assert_none(&failures);
+}
+
 /// A figure of eight whose halves cancel up to a tiny difference.
 fn figure_of_eight(rng: &mut Pcg64) -> Vec<DVec3> {
     let (size, skew) = (10_f64.powf(rng.random_range(-8.0..-0.5)), 10_f64.powf(rng.random_range(-16.0..-1.0)));

@@ -94,17 +94,29 @@ t67x = t65 + t66; t67 = rnd(t67x);
 e67 = e65 + e66;
 t68x = t62 + t67; t68 = rnd(t68x);
 e68 = e62 + e67;
-t69x = t25 + t53; t69 = rnd(t69x);
-t70x = t69 + t39; t70 = rnd(t70x);
-t71x = t55 + t57; t71 = rnd(t71x);
-t72x = t71 + t60; t72 = rnd(t72x);
-t73x = t70 + t72; t73 = rnd(t73x);
-t74x = t73 + t68; t74 = rnd(t74x);
-e74 = e68;
-t75x = t59 + t74; t75 = rnd(t75x);
-e75 = e59 + e74;
-t76 = -(t75 - t75x);
-R = t75 + t76;
+t69x = ea * eb; t69 = rnd(t69x);
+e69 = ea * eb;
+t70x = eb * ec; t70 = rnd(t70x);
+e70 = eb * ec;
+t71x = t69 + t70; t71 = rnd(t71x);
+e71 = e69 + e70;
+t72x = ec * ea; t72 = rnd(t72x);
+e72 = ec * ea;
+t73x = t71 + t72; t73 = rnd(t73x);
+e73 = e71 + e72;
+t74x = t68 + t73; t74 = rnd(t74x);
+e74 = e68 + e73;
+t75x = t25 + t53; t75 = rnd(t75x);
+t76x = t75 + t39; t76 = rnd(t76x);
+t77x = t55 + t57; t77 = rnd(t77x);
+t78x = t77 + t60; t78 = rnd(t78x);
+t79x = t76 + t78; t79 = rnd(t79x);
+t80x = t79 + t74; t80 = rnd(t80x);
+e80 = e74;
+t81x = t59 + t80; t81 = rnd(t81x);
+e81 = e59 + e80;
+t82 = -(t81 - t81x);
+R = t81 + t82;
 whole = (1 + ea_exact)*(1 + eb_exact)*(1 + ec_exact) + e20*(1 + ec_exact) + e34*(1 + ea_exact) + e48*(1 + eb_exact);
 { |ax| <= 1
   /\ |ay| <= 1
@@ -121,10 +133,10 @@ whole = (1 + ea_exact)*(1 + eb_exact)*(1 + ec_exact) + e20*(1 + ec_exact) + e34*
   /\ |eb - eb_exact| <= 1b-92
   /\ |ec_exact| <= 1b-41
   /\ |ec - ec_exact| <= 1b-92
-  -> |R - whole| <= 2417851639229258300000000b-160 }
+  -> |R - whole| <= 9444732965739290000000b-160 }
 ea -> (ea - ea_exact) + ea_exact;
 eb -> (eb - eb_exact) + eb_exact;
 ec -> (ec - ec_exact) + ec_exact;
-R - e75 -> (ec)*(t12 - t12x) + (ec)*(t14 - t14x) + (ec)*(t16 - t16x) + (ec)*(t18 - t18x) + (ec)*(t20 - t20x) + (t22 - t22x) + (t23 - t23x) + (t24 - t24x) + (t25 - t25x) + (ea)*(t26 - t26x) + (ea)*(t28 - t28x) + (ea)*(t30 - t30x) + (ea)*(t32 - t32x) + (ea)*(t34 - t34x) + (t36 - t36x) + (t37 - t37x) + (t38 - t38x) + (t39 - t39x) + (eb)*(t40 - t40x) + (eb)*(t42 - t42x) + (eb)*(t44 - t44x) + (eb)*(t46 - t46x) + (eb)*(t48 - t48x) + (t50 - t50x) + (t51 - t51x) + (t52 - t52x) + (t53 - t53x) + (t61 - t61x) + (t62 - t62x) + (t63 - t63x) + (t64 - t64x) + (t65 - t65x) + (t66 - t66x) + (t67 - t67x) + (t68 - t68x) + (t69 - t69x) + (t70 - t70x) + (t71 - t71x) + (t72 - t72x) + (t73 - t73x) + (t74 - t74x);
-R - whole -> (R - e75) + (e75 - whole);
-e75 - whole -> (ea - ea_exact) + (eb - eb_exact) + (ec - ec_exact) + e34*(ea - ea_exact) + e48*(eb - eb_exact) + e20*(ec - ec_exact) - ea_exact*eb_exact - eb_exact*ec_exact - ec_exact*ea_exact - ea_exact*eb_exact*ec_exact;
+R - e81 -> (ec)*(t12 - t12x) + (ec)*(t14 - t14x) + (ec)*(t16 - t16x) + (ec)*(t18 - t18x) + (ec)*(t20 - t20x) + (t22 - t22x) + (t23 - t23x) + (t24 - t24x) + (t25 - t25x) + (ea)*(t26 - t26x) + (ea)*(t28 - t28x) + (ea)*(t30 - t30x) + (ea)*(t32 - t32x) + (ea)*(t34 - t34x) + (t36 - t36x) + (t37 - t37x) + (t38 - t38x) + (t39 - t39x) + (eb)*(t40 - t40x) + (eb)*(t42 - t42x) + (eb)*(t44 - t44x) + (eb)*(t46 - t46x) + (eb)*(t48 - t48x) + (t50 - t50x) + (t51 - t51x) + (t52 - t52x) + (t53 - t53x) + (t61 - t61x) + (t62 - t62x) + (t63 - t63x) + (t64 - t64x) + (t65 - t65x) + (t66 - t66x) + (t67 - t67x) + (t68 - t68x) + (t69 - t69x) + (t70 - t70x) + (t71 - t71x) + (t72 - t72x) + (t73 - t73x) + (t74 - t74x) + (t75 - t75x) + (t76 - t76x) + (t77 - t77x) + (t78 - t78x) + (t79 - t79x) + (t80 - t80x);
+R - whole -> (R - e81) + (e81 - whole);
+e81 - whole -> (ea - ea_exact) + (eb - eb_exact) + (ec - ec_exact) + e34*(ea - ea_exact) + e48*(eb - eb_exact) + e20*(ec - ec_exact) + (ea - ea_exact)*eb + ea_exact*(eb - eb_exact) + (eb - eb_exact)*ec + eb_exact*(ec - ec_exact) + (ec - ec_exact)*ea + ec_exact*(ea - ea_exact) - ea_exact*eb_exact*ec_exact;

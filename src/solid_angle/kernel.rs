@@ -16,8 +16,8 @@ pub const NUMERATOR_BOUND: f64 = 72.0 * U2;
 /// Absolute error of the compensated |v|² − 1 of an accepted vertex, at most 2⁻⁴⁰, proved: 2⁻⁹².
 pub const NORM_BOUND: f64 = 16384.0 * U2;
 
-/// Absolute error of the compensated |a||b||c| + (a·b)|c| + (b·c)|a| + (c·a)|b| of accepted vertices, proved: 2⁻⁷⁹.
-pub const DENOMINATOR_BOUND: f64 = 134_217_728.0 * U2;
+/// Absolute error of the compensated |a||b||c| + (a·b)|c| + (b·c)|a| + (c·a)|b| of accepted vertices, proved: 2⁻⁸⁷.
+pub const DENOMINATOR_BOUND: f64 = 524_288.0 * U2;
 
 /// The same where the norms are off by at most 2⁻⁵¹, as those of normalised vectors are, proved: 2⁻⁹⁶.
 pub const NORMALISED_DENOMINATOR_BOUND: f64 = 1024.0 * U2;
@@ -67,7 +67,7 @@ pub fn numerator<T: Number>(apex: [T; 3], p: &[Double<T>; 3], q: &[Double<T>; 3]
     Double::sum(main.hi, main.lo + low)
 }
 
-/// |a||b||c| + (a·b)|c| + (b·c)|a| + (c·a)|b|, to first order in the deviations of the norms from 1.
+/// |a||b||c| + (a·b)|c| + (b·c)|a| + (c·a)|b|, but for the product of all three deviations of the norms from 1.
 ///
 /// `cosines` are a·b, b·c, c·a and `excesses` |a| − 1, |b| − 1, |c| − 1.
 #[inline(always)]
@@ -76,7 +76,7 @@ pub fn denominator<T: Number>(cosines: [Double<T>; 3], excesses: [T; 3]) -> Doub
     let s = T::sum(ab.hi, ca.hi);
     let t = T::sum(s.hi, bc.hi);
     let w = T::sum(t.hi, T::constant(1.0));
-    let norms = (a + b + c) + (bc.hi * a + ca.hi * b + ab.hi * c);
+    let norms = (a + b + c) + (bc.hi * a + ca.hi * b + ab.hi * c) + (a * b + b * c + c * a);
     let low = ((ab.lo + ca.lo) + bc.lo) + ((s.lo + t.lo) + w.lo);
     T::sum(w.hi, low + norms)
 }

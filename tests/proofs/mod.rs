@@ -75,10 +75,10 @@ fn denominator(deviation: u32, error: u32, bound: f64) -> String {
     let whole = format!(
         "(1 + {ea}_exact)*(1 + {eb}_exact)*(1 + {ec}_exact) + {ab}*(1 + {ec}_exact) + {bc}*(1 + {ea}_exact) + {ca}*(1 + {eb}_exact)"
     );
-    // First order against the whole, in terms that are small one by one.
+    // What is computed against the whole, in terms that are small one by one.
     let linear = |e: &str| format!("({e} - {e}_exact)");
     let step = format!(
-        "{da} + {db} + {dc} + {bc}*{da} + {ca}*{db} + {ab}*{dc} - {ea}_exact*{eb}_exact - {eb}_exact*{ec}_exact - {ec}_exact*{ea}_exact - {ea}_exact*{eb}_exact*{ec}_exact",
+        "{da} + {db} + {dc} + {bc}*{da} + {ca}*{db} + {ab}*{dc} + {da}*{eb} + {ea}_exact*{db} + {db}*{ec} + {eb}_exact*{dc} + {dc}*{ea} + {ec}_exact*{da} - {ea}_exact*{eb}_exact*{ec}_exact",
         da = linear(ea),
         db = linear(eb),
         dc = linear(ec),
