@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::HORIZON;
 use super::clip::{Cell, View};
-use super::corner::{ABOVE, BELOW, Class, FacetCorner, SPECIAL};
+use super::corner::{ABOVE, BELOW, Class, FacetCorner};
 use super::diagram::Diagram;
 use super::error::VoronoiError;
 use super::hull::{Hull, Shape};
@@ -229,16 +229,15 @@ impl Builder {
                 }
                 let end = &facet_corners[g];
                 let (left, right) = (facet.sites[(k + 2) % 3] as usize, facet.sites[(k + 1) % 3] as usize);
-                let mut has_length = false;
-                if (start.class | end.class) & SPECIAL == 0 {
+                let classes = start.class | end.class;
+                let mut has_length = classes == ABOVE_AND_BELOW;
+                if classes == ABOVE {
                     let site = &rays[left];
                     let (d, e) = (start.offset(site), end.offset(site));
                     has_length = (e - d).length_squared() > SURE_LENGTH * SURE_LENGTH * d.length_squared();
-                    if start.class & end.class == ABOVE {
-                        let side = Side::new(site.unit, start.unit, d, e);
-                        sums[left].add(&side);
-                        sums[right].add_reverse(&side, site.offset(&rays[right]));
-                    }
+                    let side = Side::new(site.unit, start.unit, d, e);
+                    sums[left].add(&side);
+                    sums[right].add_reverse(&side, site.offset(&rays[right]));
                 }
                 if !has_length && hull.is_flat(rays, (4 * f + k) as u32) {
                     hull.facets[f].mark |= 1 << k;
@@ -280,36 +279,41 @@ impl Builder {
         diagram.end_outline(site as usize, outline);
     }
 
-    /// Adds a cell of ordinary corners on both sides of the horizon, unless it is too narrow.
+    /// Adds a cell of ordinary corners above the horizon and some below, unless doubles are not enough.
     fn add_clipped_cell(&mut self, site: u32, pole: Option<&Ray>) -> bool {
         let Self { hull, rays, owners, corner_of, facet_corners, diagram, sums, .. } = self;
         let (Some(pole), ray) = (pole, &rays[site as usize]) else { return false };
         let mut sum = sums[site as usize];
         let outline = diagram.start_outline();
-        let mut gap = [DVec3::ZERO; 2];
+        let mut gap: [Option<DVec3>; 2] = [None; 2];
         Self::each_edge(hull, corner_of[site as usize], |has_length, before, after, neighbor| {
             let (start, end) = (&facet_corners[before], &facet_corners[after]);
             let owner = owners[neighbor as usize];
             match (start.class, end.class) {
                 (ABOVE, ABOVE) if has_length => diagram.push_edge(owner, start.unit),
-                (ABOVE, ABOVE) => {}
-                (ABOVE, _) => {
-                    let exit = crossing(start.unit, end.unit, pole.unit);
+                (ABOVE, BELOW) => {
                     diagram.push_edge(owner, start.unit);
-                    diagram.push_edge(HORIZON, exit);
-                    gap[0] = exit;
-                    sum.add(&Side::new(ray.unit, start.unit, start.offset(ray), exit - ray.unit));
+                    if let Some(exit) = crossing(ray, &rays[neighbor as usize], pole.unit) {
+                        diagram.push_edge(HORIZON, exit);
+                        gap[0] = Some(exit);
+                        sum.add(&Side::new(ray.unit, start.unit, start.offset(ray), exit - ray.unit));
+                    }
                 }
-                (_, ABOVE) => {
-                    let entry = crossing(end.unit, start.unit, pole.unit);
-                    diagram.push_edge(owner, entry);
-                    gap[1] = entry;
-                    sum.add(&Side::new(ray.unit, entry, entry - ray.unit, end.offset(ray)));
+                (BELOW, ABOVE) => {
+                    if let Some(entry) = crossing(&rays[neighbor as usize], ray, pole.unit) {
+                        diagram.push_edge(owner, entry);
+                        gap[1] = Some(entry);
+                        sum.add(&Side::new(ray.unit, entry, entry - ray.unit, end.offset(ray)));
+                    }
                 }
                 _ => {}
             }
         });
-        let [exit, entry] = gap;
+        let near = |corner: &DVec3| corner.dot(ray.unit) > NEAR;
+        let [Some(exit), Some(entry)] = gap.map(|corner| corner.filter(near)) else {
+            diagram.drop_outline(outline);
+            return false;
+        };
         sum.add(&Side::new(ray.unit, exit, exit - ray.unit, entry - ray.unit));
         let solid_angle = sum.solid_angle();
         if solid_angle < NARROW * NARROW {
@@ -349,11 +353,24 @@ impl Builder {
     }
 }
 
-/// Where the edge between a corner above and one below meets the horizon.
-fn crossing(above: DVec3, below: DVec3, pole: DVec3) -> DVec3 {
-    let point = above * -below.dot(pole) + below * above.dot(pole);
-    (point - pole * point.dot(pole)).normalize()
+/// Where the bisector goes below the horizon, with `left` on its left; the same bits for both cells. None if it is too
+/// close to the horizon all along for doubles.
+#[inline]
+fn crossing(left: &Ray, right: &Ray, pole: DVec3) -> Option<DVec3> {
+    let normal = left.offset(right);
+    let cross = normal.cross(pole);
+    let (square, of_normal) = (cross.length_squared(), normal.length_squared());
+    (square > STEEP * STEEP * of_normal && of_normal > SHORT * SHORT).then(|| cross / square.sqrt())
 }
+
+/// Bisectors at a smaller sine to the horizon meet it in a corner for twofold numbers.
+const STEEP: f64 = 0.25;
+
+/// So do bisectors of sites closer than 2⁻⁴⁰.
+const SHORT: f64 = 1.0 / (1u64 << 40) as f64;
+
+/// Cells reach up to this cosine from their site, if they are to be measured from there.
+const NEAR: f64 = 0.6;
 
 /// Number of sites that are loaded at a time.
 const BATCH: usize = 64;

@@ -37,23 +37,30 @@ const SHORT: f64 = 1.0 / (1u64 << 20) as f64;
 /// Nor those whose circle has a larger sine: cosines from 0.6.
 const WIDE: f64 = 0.8;
 
-/// Corners nearer to the horizon are not certain; they are right to 2⁻⁴⁷.
+/// Corners nearer to the horizon are not certain: normals are right to 2⁻⁴⁹ of the product of the two edges.
 const NEAR_HORIZON: f64 = 1.0 / (1u64 << 44) as f64;
 
 impl FacetCorner {
-    /// The corner of a facet with these sites, counter-clockwise seen from outside.
+    const UNKNOWN: Self = Self { unit: DVec3::ZERO, rest: [0.0; 3], class: SPECIAL };
+
+    /// The corner of a facet with these sites, counter-clockwise seen from outside; of one below the horizon only the
+    /// class.
     #[inline]
     pub fn new(a: &Ray, b: &Ray, c: &Ray, pole: Option<DVec3>) -> Self {
-        match corner(a, b, c).or_else(|| corner(b, c, a)).or_else(|| corner(c, a, b)) {
-            Some((unit, rest)) => {
-                let class = match pole.map(|pole| unit.dot(pole)) {
-                    Some(height) if height.abs() < NEAR_HORIZON => SPECIAL,
-                    Some(height) if height < 0.0 => BELOW,
-                    _ => ABOVE,
-                };
-                Self { unit, rest: [rest.x as f32, rest.y as f32, rest.z as f32], class }
+        if let Some(pole) = pole {
+            let (d, e) = (b.offset(a), c.offset(a));
+            let height = d.cross(e).dot(pole);
+            let (dd, ee) = (d.length_squared(), e.length_squared());
+            if height * height < NEAR_HORIZON * NEAR_HORIZON * (dd * ee) || dd.min(ee) < SHORT * SHORT {
+                return Self::UNKNOWN;
             }
-            None => Self { unit: DVec3::ZERO, rest: [0.0; 3], class: SPECIAL },
+            if height < 0.0 {
+                return Self { class: BELOW, ..Self::UNKNOWN };
+            }
+        }
+        match corner(a, b, c).or_else(|| corner(b, c, a)).or_else(|| corner(c, a, b)) {
+            Some((unit, rest)) => Self { unit, rest: [rest.x as f32, rest.y as f32, rest.z as f32], class: ABOVE },
+            None => Self::UNKNOWN,
         }
     }
 
