@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::HORIZON;
 use super::clip::{Cell, View};
-use super::corner::{ABOVE, BELOW, Class, FacetCorner};
+use super::corner::{self, ABOVE, BELOW, Class, FacetCorner};
 use super::diagram::Diagram;
 use super::error::VoronoiError;
 use super::hull::{Hull, Shape};
@@ -202,17 +202,14 @@ impl Builder {
         corner_of.resize(rays.len(), u32::MAX);
         classes.clear();
         classes.resize(rays.len(), 0);
-        facet_corners.clear();
-        let pole = pole.map(|pole| pole.unit);
-        for (f, facet) in hull.facets.iter_mut().enumerate() {
+        let facets = hull.facets.iter().map(|facet| facet.sites);
+        corner::set_corners(facets, rays, pole.map(|pole| pole.unit), facet_corners);
+        for (f, (facet, corner)) in hull.facets.iter_mut().zip(facet_corners).enumerate() {
             facet.mark = 0;
-            let [a, b, c] = facet.sites.map(|site| &rays[site as usize]);
-            let corner = FacetCorner::new(a, b, c, pole);
             for (k, &site) in facet.sites.iter().enumerate() {
                 corner_of[site as usize] = (4 * f + k) as u32;
                 classes[site as usize] |= corner.class;
             }
-            facet_corners.push(corner);
         }
     }
 
@@ -234,8 +231,8 @@ impl Builder {
                 if classes == ABOVE {
                     let site = &rays[left];
                     let (d, e) = (start.offset(site), end.offset(site));
-                    has_length = (e - d).length_squared() > SURE_LENGTH * SURE_LENGTH * d.length_squared();
-                    let side = Side::new(site.unit, start.unit, d, e);
+                    let side = Side::new(site.unit, start.unit, d, e, start.square + end.square);
+                    has_length = side.chord.length_squared() > SURE_LENGTH * SURE_LENGTH * start.square;
                     sums[left].add(&side);
                     sums[right].add_reverse(&side, site.offset(&rays[right]));
                 }
@@ -296,14 +293,18 @@ impl Builder {
                     if let Some(exit) = crossing(ray, &rays[neighbor as usize], pole.unit) {
                         diagram.push_edge(HORIZON, exit);
                         gap[0] = Some(exit);
-                        sum.add(&Side::new(ray.unit, start.unit, start.offset(ray), exit - ray.unit));
+                        let e = exit - ray.unit;
+                        let squares = start.square + e.length_squared();
+                        sum.add(&Side::new(ray.unit, start.unit, start.offset(ray), e, squares));
                     }
                 }
                 (BELOW, ABOVE) => {
                     if let Some(entry) = crossing(&rays[neighbor as usize], ray, pole.unit) {
                         diagram.push_edge(owner, entry);
                         gap[1] = Some(entry);
-                        sum.add(&Side::new(ray.unit, entry, entry - ray.unit, end.offset(ray)));
+                        let d = entry - ray.unit;
+                        let squares = d.length_squared() + end.square;
+                        sum.add(&Side::new(ray.unit, entry, d, end.offset(ray), squares));
                     }
                 }
                 _ => {}
@@ -314,7 +315,8 @@ impl Builder {
             diagram.drop_outline(outline);
             return false;
         };
-        sum.add(&Side::new(ray.unit, exit, exit - ray.unit, entry - ray.unit));
+        let (d, e) = (exit - ray.unit, entry - ray.unit);
+        sum.add(&Side::new(ray.unit, exit, d, e, d.length_squared() + e.length_squared()));
         let solid_angle = sum.solid_angle();
         if solid_angle < NARROW * NARROW {
             diagram.drop_outline(outline);
