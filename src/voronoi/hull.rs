@@ -74,6 +74,8 @@ pub(super) struct Hull {
 }
 
 impl Facet {
+    const NEW: Self = Self { w: DVec3::ZERO, error: f32::INFINITY, mark: u32::MAX, sites: [0; 3], across: [0; 3] };
+
     /// Whether `site` is beyond the plane.
     #[inline(always)]
     fn has_below(&self, rays: &[Ray], site: u32, point: DVec3) -> bool {
@@ -289,7 +291,7 @@ impl Hull {
     fn fill(&mut self, site: u32) -> u32 {
         while self.hole.len() < self.rim.len() {
             self.hole.push(self.facets.len() as u32);
-            self.facets.push(self.facets[0]);
+            self.facets.push(Facet::NEW);
         }
         let Self { points, facets, hole, rim, size, .. } = self;
         let (points, facets, rim, hole) = (&points[..], &mut facets[..], &rim[..], &hole[..rim.len()]);
@@ -390,10 +392,10 @@ fn next(k: u32) -> usize {
     if k == 2 { 0 } else { k as usize + 1 }
 }
 
-/// The site with the largest `measure`, if `is_right`; else the first one that is.
+/// The one with the largest `measure` of some sites, if `is_right`; else the first one that is.
 fn choose(rays: &[Ray], measure: impl Fn(&Ray) -> f64, is_right: impl Fn(&Ray) -> bool) -> Option<u32> {
     let (mut best, mut largest) = (0, -1.0);
-    for (k, ray) in rays.iter().enumerate() {
+    for (k, ray) in rays.iter().enumerate().step_by(rays.len().div_ceil(SAMPLE)) {
         let value = measure(ray);
         if value > largest {
             (best, largest) = (k, value);
@@ -423,6 +425,9 @@ fn far_from_plane(rays: &[Ray], first: u32, second: u32, third: u32) -> Option<(
     let site = choose(rays, |ray| ray.offset(a).dot(normal).abs(), |ray| in_circle(a, b, c, ray) != 0)?;
     Some((site, in_circle(a, b, c, &rays[site as usize])))
 }
+
+/// Number of sites, or up to twice as many, of which the first four are taken.
+const SAMPLE: usize = 50;
 
 /// The origin is the centre if it is this deep within the first four sites.
 const DEEP: f64 = 1.0 / 16.0;
