@@ -8,7 +8,7 @@ use super::corner::{self, ABOVE, BELOW, Class, FacetCorner};
 use super::diagram::Diagram;
 use super::error::VoronoiError;
 use super::hull::{Hull, Shape};
-use super::measure::{Corner, measure};
+use super::measure::{Corner, is_thin, measure};
 use super::order;
 use super::ordinary::{Side, Sum};
 use super::ray::Ray;
@@ -176,7 +176,7 @@ impl Builder {
     fn add_hull_cell(&mut self, site: u32, pole: Option<&Ray>) {
         let class = self.classes[site as usize];
         match class {
-            ABOVE => self.add_ordinary_cell(site),
+            ABOVE if self.add_ordinary_cell(site) => {}
             NONE => {}
             BELOW => self.sums[site as usize] = Sum::finished(0.0, DVec3::ZERO),
             ABOVE_AND_BELOW if self.add_clipped_cell(site, pole) => {}
@@ -263,17 +263,27 @@ impl Builder {
         }
     }
 
-    fn add_ordinary_cell(&mut self, site: u32) {
+    /// Adds a cell of ordinary corners above the horizon, unless it is thin.
+    fn add_ordinary_cell(&mut self, site: u32) -> bool {
         let Self { hull, owners, corner_of, facet_corners, diagram, sums, .. } = self;
         let sum = &mut sums[site as usize];
-        *sum = Sum::finished(sum.solid_angle(), sum.vector_moment());
+        let solid_angle = sum.solid_angle();
         let outline = diagram.start_outline();
+        let mut reach = 0.0;
         Self::each_edge(hull, corner_of[site as usize], |has_length, before, _, neighbor| {
+            let start = &facet_corners[before];
+            reach = if start.square > reach { start.square } else { reach };
             if has_length {
-                diagram.push_edge(owners[neighbor as usize], facet_corners[before].unit);
+                diagram.push_edge(owners[neighbor as usize], start.unit);
             }
         });
+        if is_thin(solid_angle, reach) {
+            diagram.drop_outline(outline);
+            return false;
+        }
+        *sum = Sum::finished(solid_angle, sum.vector_moment());
         diagram.end_outline(site as usize, outline);
+        true
     }
 
     /// Adds a cell of ordinary corners above the horizon and some below, unless doubles are not enough.
@@ -283,9 +293,11 @@ impl Builder {
         let mut sum = sums[site as usize];
         let outline = diagram.start_outline();
         let mut gap: [Option<DVec3>; 2] = [None; 2];
+        let mut reach: f64 = 0.0;
         Self::each_edge(hull, corner_of[site as usize], |has_length, before, after, neighbor| {
             let (start, end) = (&facet_corners[before], &facet_corners[after]);
             let owner = owners[neighbor as usize];
+            reach = reach.max(start.square);
             match (start.class, end.class) {
                 (ABOVE, ABOVE) if has_length => diagram.push_edge(owner, start.unit),
                 (ABOVE, BELOW) => {
@@ -316,9 +328,10 @@ impl Builder {
             return false;
         };
         let (d, e) = (exit - ray.unit, entry - ray.unit);
-        sum.add(&Side::new(ray.unit, exit, d, e, d.length_squared() + e.length_squared()));
+        let (at_exit, at_entry) = (d.length_squared(), e.length_squared());
+        sum.add(&Side::new(ray.unit, exit, d, e, at_exit + at_entry));
         let solid_angle = sum.solid_angle();
-        if solid_angle < NARROW * NARROW {
+        if solid_angle < NARROW * NARROW || is_thin(solid_angle, reach.max(at_exit).max(at_entry)) {
             diagram.drop_outline(outline);
             return false;
         }
