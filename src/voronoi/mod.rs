@@ -57,7 +57,7 @@
 //! # Not here
 //!
 //! Solid angles of polygons that are given by their vertices: [`solid_angle`](crate::solid_angle). Weighted sites, caps
-//! other than hemispheres, point location.
+//! other than hemispheres.
 //!
 //! # Source
 //!
@@ -72,6 +72,7 @@ mod error;
 mod exact;
 mod hull;
 mod incircle;
+mod locator;
 mod measure;
 mod order;
 mod ordinary;
@@ -85,6 +86,7 @@ use glam::DVec3;
 pub use builder::Builder;
 pub use diagram::{Cell, Diagram, HORIZON};
 pub use error::VoronoiError;
+pub use locator::{Locator, LocatorError};
 pub use measure::SOLID_ANGLE_ERROR;
 pub use validate::{CORNER_ERROR, Defect, ERROR_PER_EDGE};
 
