@@ -82,6 +82,10 @@ proptest! {
             let vicinity = cache.within(position - corner, position + DVec3::splat(0.1));
             // A point outside the box is looked up in the whole cache.
             let elsewhere = cache.within(position + DVec3::splat(0.1), position + DVec3::splat(0.2));
+            let is_covered = cache.irradiance(position, normal).is_some();
+            for near in [&vicinity, &elsewhere] {
+                prop_assert_eq!(near.covers(position, normal), is_covered);
+            }
             for (got, reach) in [
                 (cache.irradiance(position, normal), accuracy),
                 (vicinity.irradiance(position, normal), accuracy),

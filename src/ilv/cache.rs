@@ -7,7 +7,10 @@ use alloc::vec::Vec;
 use glam::DVec3;
 use rstar::{AABB, RTree, RTreeObject};
 
-use super::{Estimate, LightVector, Validity, ValidityError, Vicinity, interpolation::interpolate, record::Record};
+use super::{
+    Estimate, LightVector, Validity, ValidityError, Vicinity, interpolation::interpolate, reading::Reading,
+    record::Record,
+};
 
 /// A store of light vectors that answers a point and a normal with an interpolated irradiance.
 ///
@@ -183,7 +186,7 @@ impl Cache {
         let accuracy = self.validity.accuracy() * Self::RELAXATION;
         let used: Vec<usize> = self
             .near(position, 0.0)
-            .filter(|&index| self.records[index].error_at(position, normal, accuracy).is_some())
+            .filter(|&index| Reading::of(&self.records[index]).error_at(position, normal, accuracy).is_some())
             .collect();
         for index in used {
             let record = &mut self.records[index];
@@ -262,7 +265,7 @@ impl Cache {
 
     pub(super) fn interpolated(&self, position: DVec3, normal: DVec3, accuracy: f64) -> Option<Estimate> {
         let normal = unit(normal).filter(|_| position.is_finite())?;
-        let near = self.near(position, 0.0).map(|index| &self.records[index]);
+        let near = self.near(position, 0.0).map(|index| Reading::of(&self.records[index]));
         interpolate(near, position, normal, accuracy, self.validity.uses_gradients())
     }
 
@@ -275,8 +278,7 @@ impl Cache {
         let bounded = lower.cmple(upper).all() && lower.is_finite() && upper.is_finite();
         let touched = bounded.then(|| AABB::from_corners(lower.to_array(), upper.to_array()));
         let records = touched.iter().flat_map(|touched| self.tree.locate_in_envelope_intersecting(touched));
-        let records = records.map(|reach| &self.records[reach.record as usize]).collect();
-        Vicinity::new(self, [lower, upper], records)
+        Vicinity::new(self, [lower, upper], records.map(|reach| &self.records[reach.record as usize]))
     }
 
     /// The rule, and all records as they are stored.

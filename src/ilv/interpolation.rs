@@ -1,10 +1,11 @@
 //! The mean of the records that are valid at a point.
 
 use alloc::vec::Vec;
+use core::borrow::Borrow;
 
 use glam::DVec3;
 
-use super::{Cache, cache::unit, record::Record};
+use super::{Cache, cache::unit, reading::Reading, record::Record};
 
 /// An interpolated irradiance.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,12 +22,26 @@ pub struct Estimate {
 pub struct Vicinity<'a> {
     cache: &'a Cache,
     corners: [DVec3; 2],
-    records: Vec<&'a Record>,
+    readings: Vec<Reading<'a>>,
 }
 
 impl<'a> Vicinity<'a> {
-    pub(super) fn new(cache: &'a Cache, corners: [DVec3; 2], records: Vec<&'a Record>) -> Self {
-        Self { cache, corners, records }
+    pub(super) fn new(cache: &'a Cache, corners: [DVec3; 2], records: impl Iterator<Item = &'a Record>) -> Self {
+        let farthest = cache.validity().accuracy() * Cache::RELAXATION;
+        let readings = records.filter_map(|record| Reading::of(record).inside(corners, farthest)).collect();
+        Self { cache, corners, readings }
+    }
+
+    /// Whether [`Cache::irradiance`] has an answer.
+    #[must_use]
+    pub fn covers(&self, position: DVec3, normal: DVec3) -> bool {
+        let accuracy = self.cache.validity().accuracy();
+        if !self.holds(position) {
+            return self.cache.irradiance(position, normal).is_some();
+        }
+        let covers =
+            |normal| self.readings.iter().any(|reading| reading.error_at(position, normal, accuracy).is_some());
+        unit(normal).is_some_and(covers)
     }
 
     /// What [`Cache::irradiance`] answers, to the rounding of its sum.
@@ -48,18 +63,22 @@ impl<'a> Vicinity<'a> {
     }
 
     fn interpolated(&self, position: DVec3, normal: DVec3, accuracy: f64) -> Option<Estimate> {
-        let [lower, upper] = self.corners;
-        if !(lower.cmple(position).all() && position.cmple(upper).all()) {
+        if !self.holds(position) {
             return self.cache.interpolated(position, normal, accuracy);
         }
         let normal = unit(normal)?;
-        interpolate(self.records.iter().copied(), position, normal, accuracy, self.cache.validity().uses_gradients())
+        interpolate(self.readings.iter(), position, normal, accuracy, self.cache.validity().uses_gradients())
+    }
+
+    fn holds(&self, position: DVec3) -> bool {
+        let [lower, upper] = self.corners;
+        lower.cmple(position).all() && position.cmple(upper).all()
     }
 }
 
 /// Weighted mean of what the records say; the weight of each falls to zero where its error reaches `accuracy`.
 pub(super) fn interpolate<'a>(
-    records: impl Iterator<Item = &'a Record>,
+    readings: impl Iterator<Item = impl Borrow<Reading<'a>>>,
     position: DVec3,
     normal: DVec3,
     accuracy: f64,
@@ -67,12 +86,13 @@ pub(super) fn interpolate<'a>(
 ) -> Option<Estimate> {
     let mut sum = DVec3::ZERO;
     let (mut total, mut variance) = (0.0, 0.0);
-    for record in records {
-        let Some(error) = record.error_at(position, normal, accuracy) else { continue };
+    for reading in readings {
+        let reading = reading.borrow();
+        let Some(error) = reading.error_at(position, normal, accuracy) else { continue };
         let weight = accuracy - error;
-        sum += record.irradiance_at(position, normal, gradients) * weight;
+        sum += reading.irradiance_at(position, normal, gradients) * weight;
         total += weight;
-        variance += (weight * record.vector.standard_error()).powi(2);
+        variance += (weight * reading.standard_error()).powi(2);
     }
     (total > 0.0).then(|| Estimate { irradiance: sum / total, standard_error: variance.sqrt() / total })
 }

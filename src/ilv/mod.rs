@@ -42,6 +42,7 @@ mod gradient;
 mod interpolation;
 mod luminance;
 mod pilot;
+mod reading;
 mod record;
 mod refinement;
 mod sampler;
