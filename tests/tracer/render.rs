@@ -322,7 +322,7 @@ impl Tile {
 
     /// The pixels on the lattice of this `stride` that no coarser one has, from the stride `first` on; both are powers of two.
     pub fn joining(&self, stride: u32, first: u32, size: u32) -> &[usize] {
-        let is_on = |pixel: &usize, stride: u32| (*pixel as u32 % size | *pixel as u32 / size) % stride == 0;
+        let is_on = |pixel: &usize, stride: u32| ((*pixel as u32 % size) | (*pixel as u32 / size)) % stride == 0;
         let level = stride.trailing_zeros() as usize;
         match level {
             0..3 if stride == first => &self.pixels[..self.ends[3 - level]],
