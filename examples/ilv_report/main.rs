@@ -2,7 +2,7 @@
 //!
 //! Prints the tables of `docs/ilv.md` in Markdown and writes its figures: on hemispheres of the three scenes and on fields
 //! with closed forms, the root mean square error of irradiance and direction at several numbers of rays, the CPU time of
-//! a gather, and the share of the Voronoi step. The view points are not those on which the sampler was tuned. Times need
+//! a gather, and the shares of rays and Voronoi step. The view points are not those on which the sampler was tuned. Times need
 //! `--release`; they are of one thread, tracing included.
 
 use std::{error::Error, fs, io::Write, path::PathBuf};
@@ -12,8 +12,8 @@ use clap::Parser;
 mod field;
 mod method;
 mod picture;
+mod shares;
 mod trial;
-mod voronoi_share;
 
 #[allow(dead_code, unused_imports, reason = "uses a part of the tracer")]
 #[path = "../../tests/tracer/mod.rs"]
@@ -68,5 +68,5 @@ fn main() -> Result<(), Box<dyn Error>> {
             fs::write(options.out.join(format!("ilv_{name}.svg")), svg)?;
         }
     }
-    voronoi_share::print(&mut out, &fields[..field::SCENES])
+    shares::print(&mut out, &fields[..field::SCENES])
 }

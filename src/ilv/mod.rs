@@ -24,7 +24,7 @@
 //! # Known
 //! Voronoi weights are exact in a constant field and lower the scatter in others, but they are biased: a cell reaches over
 //! to where its ray has not been. Deciding where to sample by the samples adds to it. [`Weights`] and `docs/ilv.md` have the figures;
-//! [`AdaptiveSampler::unbiased`], [`lattice`](AdaptiveSampler::lattice) and [`spiral`](AdaptiveSampler::spiral) have no such bias.
+//! [`AdaptiveSampler::unbiased`] and [`lattice`](AdaptiveSampler::lattice) have no such bias.
 //!
 //! # Not here
 //! Geometry, materials and cameras: the tracer that puts this module to the test stands in `tests/tracer/`.
@@ -40,17 +40,20 @@ mod frame;
 mod gather;
 mod gradient;
 mod interpolation;
+mod leaves;
 mod luminance;
+mod patchwork;
 mod pilot;
 mod reading;
 mod record;
 mod refinement;
 mod sampler;
 mod source;
-mod spiral;
+mod splitting;
 #[cfg(feature = "serde")]
 mod stored;
 mod sum;
+mod tracing;
 mod validate;
 mod validity;
 mod vector;
