@@ -29,13 +29,13 @@ impl<'a> Vicinity<'a> {
         Self { cache, corners, records }
     }
 
-    /// What [`Cache::irradiance`] answers, to the rounding of its sum.
+    /// What [`Cache::irradiance`] answers, bit for bit.
     #[must_use]
     pub fn irradiance(&self, position: DVec3, normal: DVec3) -> Option<DVec3> {
         self.interpolated(position, normal, self.cache.validity().accuracy()).map(|estimate| estimate.irradiance)
     }
 
-    /// What [`Cache::irradiance_relaxed`] answers, to the rounding of its sum.
+    /// What [`Cache::irradiance_relaxed`] answers, bit for bit.
     #[must_use]
     pub fn irradiance_relaxed(&self, position: DVec3, normal: DVec3) -> Option<DVec3> {
         self.estimate_relaxed(position, normal).map(|estimate| estimate.irradiance)
@@ -53,13 +53,17 @@ impl<'a> Vicinity<'a> {
             return self.cache.interpolated(position, normal, accuracy);
         }
         let normal = unit(normal)?;
-        interpolate(self.records.iter().copied(), position, normal, accuracy, self.cache.validity().uses_gradients())
+        let valid =
+            self.records.iter().filter_map(|&record| Some((record, record.error_at(position, normal, accuracy)?)));
+        interpolate(valid, position, normal, accuracy, self.cache.validity().uses_gradients())
     }
 }
 
-/// Weighted mean of what the records say; the weight of each falls to zero where its error reaches `accuracy`.
+/// Weighted mean of what records say, each with its error, in the order of insertion: any search then gives the same bits.
+///
+/// The weight of a record falls to zero where its error reaches `accuracy`.
 pub(super) fn interpolate<'a>(
-    records: impl Iterator<Item = &'a Record>,
+    valid: impl Iterator<Item = (&'a Record, f64)>,
     position: DVec3,
     normal: DVec3,
     accuracy: f64,
@@ -67,8 +71,7 @@ pub(super) fn interpolate<'a>(
 ) -> Option<Estimate> {
     let mut sum = DVec3::ZERO;
     let (mut total, mut variance) = (0.0, 0.0);
-    for record in records {
-        let Some(error) = record.error_at(position, normal, accuracy) else { continue };
+    for (record, error) in valid {
         let weight = accuracy - error;
         sum += record.irradiance_at(position, normal, gradients) * weight;
         total += weight;
