@@ -319,6 +319,19 @@ fn gradients_carry_a_slope_from_record_to_record_up_to_the_second_order() {
     assert!(with <= 1.0 && without > 2.0, "{without} without gradients, {with} with them");
 }
 
+/// Squares of distances like these are zero, so that records far out of each other's reach seem to lie in one place.
+#[test]
+fn a_scene_smaller_than_squares_can_tell_is_refused() {
+    assert!(matches!(Validity::new(10.0, 1e-225, 1e-220), Err(ValidityError::Radius { .. })));
+    let mut cache = Cache::new(Validity::new(10.0, Validity::SMALLEST_RADIUS, 1e-80).unwrap());
+    let mut rng = seeds::rng(8);
+    for step in 0..20 {
+        let at = DVec3::X * Validity::SMALLEST_RADIUS * f64::from(step);
+        cache.insert(at, DVec3::Z, vector(DVec3::Z, 1e-95 * 10_f64.powi(step), &mut rng)).unwrap();
+    }
+    assert_eq!(cache.validate(), Ok(()));
+}
+
 #[test]
 fn what_is_no_place_is_refused_when_stored_and_unanswered_when_asked_for() {
     let mut rng = seeds::rng(3);
@@ -344,7 +357,7 @@ fn what_is_no_place_is_refused_when_stored_and_unanswered_when_asked_for() {
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 11.0] {
         assert!(matches!(Validity::new(bad, 0.1, 1.0), Err(ValidityError::Accuracy { .. })), "{bad}");
     }
-    for (low, high) in [(0.0, 1.0), (2.0, 1.0), (f64::NAN, 1.0), (0.1, f64::MAX), (0.1, f64::NAN)] {
+    for (low, high) in [(0.0, 1.0), (1e-91, 1.0), (2.0, 1.0), (f64::NAN, 1.0), (0.1, f64::MAX), (0.1, f64::NAN)] {
         assert!(matches!(Validity::new(0.3, low, high), Err(ValidityError::Radius { .. })), "{low} {high}");
     }
     assert!(matches!(Validity::for_scene(0.3, f64::NAN), Err(ValidityError::Radius { .. })));

@@ -1,6 +1,6 @@
 //! The Voronoi step of a gather beside its tracing.
 
-use std::{error::Error, hint::black_box, io::Write};
+use std::{error::Error, fmt::Write, hint::black_box};
 
 use cpu_time::ThreadTime;
 use rand::SeedableRng;
@@ -14,9 +14,11 @@ use steradian::{
 use crate::field::Field;
 
 /// Times, for every scene, the rays of default gathers: traced again, and turned into a diagram again.
-pub fn print(out: &mut impl Write, scenes: &[Field]) -> Result<(), Box<dyn Error>> {
-    writeln!(out, "### Tracing and the Voronoi step\n")?;
-    writeln!(out, "| scene | rays | tracing, µs | diagram, µs | diagram / tracing |\n|---|---|---|---|---|")?;
+pub fn section(scenes: &[Field]) -> Result<String, Box<dyn Error>> {
+    let mut out = String::from(
+        "## Tracing and the Voronoi step\n\nRays of `default`.\n\n\
+         | scene | rays | tracing, µs | diagram, µs | diagram / tracing |\n|---|---|---|---|---|\n",
+    );
     let mut builder = Builder::new();
     for field in scenes {
         let (mut rays, mut tracing, mut diagram) = (0, 0.0, 0.0);
@@ -52,5 +54,6 @@ pub fn print(out: &mut impl Write, scenes: &[Field]) -> Result<(), Box<dyn Error
             diagram / tracing
         )?;
     }
-    Ok(())
+    out.push('\n');
+    Ok(out)
 }

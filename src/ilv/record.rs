@@ -78,10 +78,11 @@ pub(super) fn is_sound(vector: &LightVector, normal: DVec3) -> bool {
     // π times the brightest radiance, and some room for weights that overshoot.
     let is_bounded = |v: DVec3| v.is_finite() && v.abs().max_element() <= 16.0 * Gather::BRIGHTEST;
     let power = normal.dot(vector.vector_irradiance);
-    let scale = vector.vector_irradiance.length() + vector.luminance().abs();
+    // Subnormal numbers round as coarsely as they like.
+    let slack = 1e-6 * (vector.vector_irradiance.length() + vector.luminance().abs()) + f64::MIN_POSITIVE;
     is_bounded(vector.irradiance)
         && is_bounded(vector.vector_irradiance)
-        && (power - vector.luminance()).abs() <= 1e-6 * scale
+        && (power - vector.luminance()).abs() <= slack
         && vector.translation_gradient.iter().all(|gradient| gradient.is_finite())
         && vector.standard_error >= 0.0
         && vector.mean_distance >= 0.0

@@ -36,6 +36,7 @@ mod wander;
 
 pub use bounces::Bounces;
 pub use camera::Camera;
+pub use corridor::Corridor;
 pub use deviation::Deviation;
 pub use gather::cosine_stratified;
 pub use light::Light;
