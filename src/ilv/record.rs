@@ -29,7 +29,8 @@ impl Record {
         if !(position.is_finite() && position.abs().max_element() <= Cache::FARTHEST) {
             return Err(CacheError::Position { position });
         }
-        if !((normal.length_squared() - 1.0).abs() <= Self::UNIT) {
+        let is_unit = (normal.length_squared() - 1.0).abs() <= Self::UNIT;
+        if !is_unit {
             return Err(CacheError::Normal { normal });
         }
         if !(radius > 0.0 && radius.is_finite()) {
