@@ -97,10 +97,11 @@ impl LightVector {
     /// not a finite number is zero.
     ///
     /// # Accuracy
-    /// Statistical, and consistent as the cells get smaller; nearer borders make it a little long. Beside a lone bright
-    /// rectangle, and beside a wall, its mean over gathers of 208 stratified rays is 0.97 and 1.21 of the exact one and its scatter
-    /// 0.05 and 0.03 of it (`tests/light_vector_gradient.rs`). On points of three test scenes, at 208 rays, the root mean square error is
-    /// 0.29 to 0.38 of |∇E| + E/(size of the scene) by Voronoi cells and 0.33 to 0.47 by the grid; at 1024 rays 0.19 to 0.25.
+    /// Statistical, and consistent as the cells get smaller; too long where what hides the rest is nearer beside its edge than at
+    /// it, too short where it is farther. Beside a lone bright rectangle, and beside a wall, its mean over gathers of 208
+    /// stratified rays is 0.97 and 1.21 of the exact one and its scatter 0.05 and 0.03 of it
+    /// (`tests/light_vector_gradient.rs`). On points of three test scenes, at 208 rays, the root mean square error is 0.24 to 0.52
+    /// of |∇E| + E/(size of the scene) by Voronoi cells and 0.27 to 0.57 by the grid; at 1024 rays 0.12 to 0.35 (`docs/ilv.md`).
     /// Where the light is the same in all directions it is exactly zero.
     ///
     /// # Source
