@@ -1,6 +1,6 @@
 //! Where the time of a gather goes: rays, Voronoi diagram, everything else.
 
-use std::{error::Error, hint::black_box, io::Write};
+use std::{error::Error, fmt::Write, hint::black_box};
 
 use cpu_time::ThreadTime;
 use rand::SeedableRng;
@@ -16,10 +16,11 @@ use crate::field::Field;
 const ROUNDS: usize = 5;
 
 /// Times gathers of every preset in every scene, their rays alone, and the diagram of those rays where they take one.
-pub fn print(out: &mut impl Write, scenes: &[Field]) -> Result<(), Box<dyn Error>> {
-    writeln!(out, "### Where the time of a gather goes\n")?;
-    writeln!(out, "| scene | sampler | rays | tracing, µs | diagram, µs | rest, µs | diagram / tracing |")?;
-    writeln!(out, "|---|---|---|---|---|---|---|")?;
+pub fn section(scenes: &[Field]) -> Result<String, Box<dyn Error>> {
+    let mut out = String::from(
+        "## Where the time of a gather goes\n\nMeans over the points of the scenes, each the least of five rounds in turns.\n\n\
+         | scene | sampler | rays | tracing, µs | diagram, µs | rest, µs | diagram / tracing |\n|---|---|---|---|---|---|---|\n",
+    );
     let samplers = [
         ("default", AdaptiveSampler::default()),
         ("unbiased", AdaptiveSampler::unbiased()),
@@ -37,8 +38,8 @@ pub fn print(out: &mut impl Write, scenes: &[Field]) -> Result<(), Box<dyn Error
             writeln!(out, "| {scene} | {name} | {rays:.0} | {tracing:.0} | {diagram:.0} | {rest:.0} | {ratio} |")?;
         }
     }
-    writeln!(out)?;
-    Ok(())
+    out.push('\n');
+    Ok(out)
 }
 
 /// Rays of a gather, and microseconds of the whole, of tracing and of the diagram: means over the points of the least of some rounds.

@@ -1,7 +1,6 @@
 //! The mean of the records that are valid at a point.
 
 use alloc::vec::Vec;
-use core::borrow::Borrow;
 
 use glam::DVec3;
 
@@ -44,13 +43,13 @@ impl<'a> Vicinity<'a> {
         unit(normal).is_some_and(covers)
     }
 
-    /// What [`Cache::irradiance`] answers, to the rounding of its sum.
+    /// What [`Cache::irradiance`] answers, bit for bit.
     #[must_use]
     pub fn irradiance(&self, position: DVec3, normal: DVec3) -> Option<DVec3> {
         self.interpolated(position, normal, self.cache.validity().accuracy()).map(|estimate| estimate.irradiance)
     }
 
-    /// What [`Cache::irradiance_relaxed`] answers, to the rounding of its sum.
+    /// What [`Cache::irradiance_relaxed`] answers, bit for bit.
     #[must_use]
     pub fn irradiance_relaxed(&self, position: DVec3, normal: DVec3) -> Option<DVec3> {
         self.estimate_relaxed(position, normal).map(|estimate| estimate.irradiance)
@@ -67,7 +66,9 @@ impl<'a> Vicinity<'a> {
             return self.cache.interpolated(position, normal, accuracy);
         }
         let normal = unit(normal)?;
-        interpolate(self.readings.iter(), position, normal, accuracy, self.cache.validity().uses_gradients())
+        let errors = self.readings.iter().map(|reading| (reading, reading.error_at(position, normal, accuracy)));
+        let valid = errors.filter_map(|(reading, error)| Some((reading, error?)));
+        interpolate(valid, position, normal, accuracy, self.cache.validity().uses_gradients())
     }
 
     fn holds(&self, position: DVec3) -> bool {
@@ -76,9 +77,11 @@ impl<'a> Vicinity<'a> {
     }
 }
 
-/// Weighted mean of what the records say; the weight of each falls to zero where its error reaches `accuracy`.
-pub(super) fn interpolate<'a>(
-    readings: impl Iterator<Item = impl Borrow<Reading<'a>>>,
+/// Weighted mean of what records say, each with its error, in the order of insertion: any search then gives the same bits.
+///
+/// The weight of a record falls to zero where its error reaches `accuracy`.
+pub(super) fn interpolate<'r>(
+    valid: impl Iterator<Item = (&'r Reading<'r>, f64)>,
     position: DVec3,
     normal: DVec3,
     accuracy: f64,
@@ -86,9 +89,7 @@ pub(super) fn interpolate<'a>(
 ) -> Option<Estimate> {
     let mut sum = DVec3::ZERO;
     let (mut total, mut variance) = (0.0, 0.0);
-    for reading in readings {
-        let reading = reading.borrow();
-        let Some(error) = reading.error_at(position, normal, accuracy) else { continue };
+    for (reading, error) in valid {
         let weight = accuracy - error;
         sum += reading.irradiance_at(position, normal, gradients) * weight;
         total += weight;

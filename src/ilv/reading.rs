@@ -13,9 +13,8 @@ pub(super) struct Reading<'a> {
     /// Offsets of which the product with one of the first `fenced` of these is above 1 lie behind a wall.
     fences: [DVec3; FENCES],
     fenced: usize,
-    inverse_radius: f64,
-    /// The gradient by which the irradiance is carried over, made when it is first wanted.
-    slope: OnceCell<[DVec3; 3]>,
+    /// By how much the gradient counts, worked out when it is first wanted.
+    slope: OnceCell<f64>,
 }
 
 impl<'a> Reading<'a> {
@@ -24,7 +23,7 @@ impl<'a> Reading<'a> {
 
     pub fn of(record: &'a Record) -> Self {
         let fences = record.vector.fences.planes().map(|plane| plane.as_dvec3());
-        Self { record, fences, fenced: FENCES, inverse_radius: record.radius.recip(), slope: OnceCell::new() }
+        Self { record, fences, fenced: FENCES, slope: OnceCell::new() }
     }
 
     /// The same for places in a box only: without the fences that hide nothing there; `None` if the box is out of reach.
@@ -37,15 +36,15 @@ impl<'a> Reading<'a> {
             return None;
         }
         let (middle, half) = ((lower + upper) * 0.5 - place, (upper - lower) * 0.5);
-        let mut fenced = 0;
+        self.fenced = 0;
         for k in 0..FENCES {
             let fence = self.fences[k];
             if (fence.dot(middle) + fence.abs().dot(half)) * SLACK >= 1.0 {
-                self.fences[fenced] = fence;
-                fenced += 1;
+                self.fences[self.fenced] = fence;
+                self.fenced += 1;
             }
         }
-        Some(Self { fenced, ..self })
+        Some(self)
     }
 
     /// The error of using the record at another point, or `None` where it must not be used: where the error is `accuracy` or
@@ -68,7 +67,7 @@ impl<'a> Reading<'a> {
             turn = FRAC_1_SQRT_2 * normal.distance(self.record.normal);
             along = (normal + self.record.normal) * 0.5;
         }
-        let error = squared.sqrt() * self.inverse_radius + turn;
+        let error = squared.sqrt() / radius + turn;
         let behind = offset.dot(along) < -0.01 * radius;
         let hidden = self.fences[..self.fenced].iter().any(|fence| fence.dot(offset) > 1.0);
         (error < accuracy && !behind && !hidden).then_some(error)
@@ -84,20 +83,18 @@ impl<'a> Reading<'a> {
             return turned;
         }
         let offset = position - self.record.position;
-        let rise = self.slope.get_or_init(|| self.slope()).map(|gradient| gradient.dot(offset));
-        (turned + DVec3::from_array(rise)).max(vector.irradiance * Self::FLOOR)
+        let rise = DVec3::from_array(vector.translation_gradient.map(|gradient| gradient.dot(offset)));
+        (turned + rise * *self.slope.get_or_init(|| self.slope())).max(vector.irradiance * Self::FLOOR)
     }
 
-    /// The translation gradient of the record, tamed.
+    /// By how much the gradient of the record counts, at most by 1.
     ///
     /// A gradient that would take the irradiance to zero within the radius is shortened to one that just does: it is noise, or
     /// belongs to a corner that the radius does not follow. Where surfaces are nearer than the radius it fades with them.
-    fn slope(&self) -> [DVec3; 3] {
-        let Record { vector, .. } = self.record;
-        let near = (vector.mean_distance * self.inverse_radius).min(1.0);
-        let length = vector.gradient_length(vector.luminance());
-        let tamed = (length * self.inverse_radius).min(1.0) * near * near;
-        vector.translation_gradient.map(|gradient| gradient * tamed)
+    fn slope(&self) -> f64 {
+        let Record { vector, radius, .. } = self.record;
+        let near = (vector.mean_distance / radius).min(1.0);
+        (vector.gradient_length(vector.luminance()) / radius).min(1.0) * near * near
     }
 
     pub fn standard_error(&self) -> f64 {
