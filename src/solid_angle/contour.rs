@@ -52,16 +52,18 @@ pub(super) fn scale(vertices: &[DVec3]) -> f64 {
     1.0 / power.max(f64::from_bits((1023 - 1000) << 52))
 }
 
-/// A vertex and its 1/|v| − 1.
+/// A vertex, its |v|² − 1, and its 1/|v| − 1.
 #[derive(Clone, Copy)]
 pub(super) struct Corner {
     pub v: DVec3,
+    pub norm_error: Double,
     pub deficit: Double,
 }
 
 impl Corner {
     pub fn new(v: DVec3) -> Self {
-        Self { v, deficit: deficit(exact::norm_error(v.to_array())) }
+        let norm_error = exact::norm_error(v.to_array());
+        Self { v, norm_error, deficit: deficit(norm_error) }
     }
 
     /// to/|to| − v/|v|.
@@ -82,7 +84,7 @@ pub(super) struct Edge {
     /// a×b, and its length.
     pub normal: Vector,
     pub length: Double,
-    /// Of the angle between a and b.
+    /// Sine and cosine of the angle between a and b.
     pub sine: Double,
     pub cosine: Double,
 }
@@ -122,8 +124,7 @@ pub(super) fn bulge(sine: Double, cosine: Double) -> Double {
     sine * series
 }
 
-/// The length of a vector whose square does not underflow, or that counts for nothing.
-pub(super) fn length(v: &Vector) -> Double {
+fn length(v: &Vector) -> Double {
     dot(v, v).sqrt()
 }
 

@@ -72,6 +72,7 @@ mod geographic;
 mod kernel;
 mod moment;
 mod product;
+mod projected;
 mod seen;
 mod winding;
 
@@ -82,6 +83,7 @@ pub use check::UNIT_TOLERANCE;
 pub use error::SolidAngleError;
 pub use geographic::{GEOGRAPHIC_FLOOR, geographic_polygon};
 pub use kernel::{DENOMINATOR_BOUND, NORM_BOUND, NORMALISED_DENOMINATOR_BOUND, NUMERATOR_BOUND, PRODUCT_BOUND};
+pub use projected::{PROJECTED_BOUND, projected_above_horizon, projected_solid_angle};
 pub use seen::seen_from;
 pub use winding::winding;
 
