@@ -170,12 +170,6 @@ fn values<T: Real>(v: [T; 3]) -> [f64; 3] {
     three(|i| v[i].get())
 }
 
-/// |v| − 1 of a near-unit vector.
-#[inline(always)]
-pub(super) fn excess(v: [f64; 3]) -> f64 {
-    kernel::excess(v)
-}
-
 impl<T: Real> Apex<T> {
     #[inline(always)]
     fn new(v: [f64; 3]) -> Self {
@@ -296,7 +290,8 @@ mod tests {
 
     use super::super::dispatch::Kernel;
     use super::super::fused::Fused;
-    use super::{Fan, Loop, excess, fan};
+    use super::super::kernel::excess;
+    use super::{Fan, Loop, fan};
 
     /// The sum over the fan, not reduced.
     fn total(fan: &Fan) -> f64 {

@@ -93,3 +93,40 @@ pub fn vector_moment(vertices: &[Vector]) -> Vector {
     }
     sum
 }
+
+/// n·½ Σ θₑ n̂ₑ.
+pub fn projected(vertices: &[Vector], n: &Vector) -> Fixed {
+    dot(&vector_moment(vertices), n)
+}
+
+/// The part of a convex loop above the horizon of `n`, which may have no vertices.
+fn clipped(vertices: &[Vector], n: &Vector) -> Vec<Vector> {
+    let mut kept = Vec::new();
+    // What is below 2⁻³⁰⁰ is the noise of an exact 0.
+    let height = |v: &Vector| Some(dot(v, n)).filter(|x| x.0.bits() + 300 > PLACES).unwrap_or_default();
+    for (a, b) in edges(vertices) {
+        let (p, q) = (height(a), height(b));
+        let above = [&p, &q].map(|height| *height >= Fixed::default());
+        if above[0] {
+            kept.push(a.clone());
+        }
+        if above[0] != above[1] {
+            let (s, t) = if above[0] { (-q, p) } else { (q, -p) };
+            kept.push(unit(&[0, 1, 2].map(|i| &(&a[i] * &s) + &(&b[i] * &t))));
+        }
+    }
+    kept
+}
+
+/// ∫ max(0, n·ω) dω over the region on the left of the loop, whose solid angle is in [0, 4π): the triangles of a fan, each of
+/// them clipped, and as many hemispheres as the fan misses whole spheres.
+pub fn projected_above(vertices: &[Vector], n: &Vector) -> Fixed {
+    let apex = unit(&[3, -5, 7].map(Fixed::from));
+    let parts = edges(vertices).fold(Fixed::default(), |sum, (a, b)| {
+        let part = clipped(&[apex.clone(), a.clone(), b.clone()], n);
+        if part.is_empty() { sum } else { &sum + &projected(&part, n) }
+    });
+    let missed = &solid_angles(vertices).1 - &winding(vertices, &apex);
+    let spheres = (missed.value() / (4.0 * std::f64::consts::PI)).round();
+    &parts + &(&pi() * &Fixed::from(spheres))
+}
