@@ -22,9 +22,19 @@ use crate::float::atan2;
 
 /// Bound of the error of the solid angle of a cell, in steradians, and of each component of its vector moment.
 ///
-/// Searched, for cells of up to 40 edges; of narrow cells also relative. From the parts: four angles of 2⁻⁵³ × 2 each,
-/// and normals that are right to 2⁻⁵¹.
+/// Searched, for cells of up to 40 edges. From the parts: four angles of 2⁻⁵³ × 2 each, and normals that are right to 2⁻⁵¹.
 pub const SOLID_ANGLE_ERROR: f64 = 4e-15;
+
+/// Bound of the relative error of the solid angle of a cell, beside [`PLANE_ERROR`].
+///
+/// Searched. From the parts: 16 times that of a square for cells as thin as differences in doubles are used for.
+pub const RELATIVE_ERROR: f64 = 4e-14;
+
+/// Bound of the relative error of the solid angle of a cell from the planes of its edges, over its perimeter and times its
+/// solid angle.
+///
+/// Searched. From the parts: normals and corners of twofold numbers are right to 2⁻⁹⁵.
+pub const PLANE_ERROR: f64 = 4e-28;
 
 /// Corners of smaller sine than this, and corners of cells narrower than `NARROW`, are computed in twofold numbers.
 const SHARP: f64 = 0.25;
