@@ -152,7 +152,7 @@ impl LightVector {
     ///
     /// Up to four walls are remembered, from rays less than 45° above the surface, each as a plane across the surface a
     /// hundredth before its foot. A wall that no such ray met is not known; a point beside a narrow thing may count as behind
-    /// it.
+    /// it. Inside a bowl the surface itself is such a wall, so that a light vector serves as far as its lowest ray only.
     ///
     /// # Examples
     /// ```
