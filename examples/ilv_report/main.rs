@@ -54,7 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     if options.paper {
         let text = format!("{}{}", paper::section(options.quick)?, sensitivity::section(options.quick)?);
         print!("{text}");
-        return page::replace_section(&options.docs.join("paper.md"), "rays", &text);
+        return page::replace_section(&options.docs.join("paper.md"), "rays", "ilv_report", &text);
     }
     if options.quick {
         (options.points, options.gathers) = (3, 1);
@@ -66,5 +66,5 @@ fn main() -> Result<(), Box<dyn Error>> {
     text += &gradient::section(scenes, options.quick)?;
     text += &shadow::section(options.quick)?;
     print!("{text}");
-    page::replace_section(&options.docs.join("ilv.md"), "tables", &text)
+    page::replace_section(&options.docs.join("ilv.md"), "tables", "ilv_report", &text)
 }

@@ -185,7 +185,8 @@ impl Cache {
     /// Takes back what the records promise for `position` on the surface with unit `normal`: none of them is used there again,
     /// relaxed or not, but those whose radius is the smallest already.
     ///
-    /// For callers that know better: a test found that interpolation is wrong there.
+    /// For callers that know better: a test found that interpolation is wrong there. Nothing changes where the position is not
+    /// finite or the normal not a unit vector.
     pub fn retract(&mut self, position: DVec3, normal: DVec3) {
         let Some(normal) = unit(normal).filter(|_| position.is_finite()) else { return };
         let accuracy = self.validity.accuracy() * Self::RELAXATION;

@@ -9,6 +9,10 @@ use super::{
 };
 use crate::voronoi::{Diagram, HORIZON};
 
+/// A side that is so many times as far as the other is hidden by it. Among 1, 1.2, 1.5, 2 and 4 the largest had the least scatter on
+/// points of three scenes; without a limit the border between a wall and the sky would be at infinity.
+const HIDDEN: f64 = 4.0;
+
 /// The gradient of red, green and blue while borders are being added.
 ///
 /// When the point moves by dx, a border that lies at the distance t moves by −dx/t among the directions, and carries the
@@ -20,9 +24,11 @@ struct Gradient([DVec3; 3]);
 impl Gradient {
     /// A border with the integral `across` = ∫ N (n·ω) dl, N pointing from the first ray's cell to the second's.
     ///
-    /// The nearer side hides the other, so that the border is at its distance.
+    /// Where one side is much nearer it hides the other, and the border is at its distance. Elsewhere both belong to surfaces that
+    /// meet there or go on, with the border half way in 1/t, which is linear in the direction on a plane.
     fn add(&mut self, across: DVec3, from: &Ray, to: &Ray) {
-        let distance = from.distance.min(to.distance);
+        let (near, far) = (from.distance.min(to.distance), from.distance.max(to.distance));
+        let distance = if far < HIDDEN * near { near * (2.0 / (1.0 + near / far)) } else { near };
         // In an edge of the scene the gradient is infinite or nothing; nobody can tell which.
         if distance > 0.0 {
             let step = across / distance;

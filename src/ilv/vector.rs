@@ -89,9 +89,9 @@ impl LightVector {
     /// world coordinates, irradiance over the unit of distance.
     ///
     /// # Model
-    /// The light is taken as constant on each cell of the sphere, its borders as fixed in space at the distance t of the
-    /// nearer side. When the point moves they move among the directions: ∇E = Σ (Lⱼ − Lᵢ)/t ∫ N (n·ω) dl over the borders
-    /// of cells i and j, with N their unit normal from i to j. The cells are those of the grid where each has one ray and
+    /// The light is taken as constant on each cell of the sphere, its borders as fixed in space at the distance t: the harmonic
+    /// mean of both sides, or the nearer one where the other is four times as far. When the point moves they move among the
+    /// directions: ∇E = Σ (Lⱼ − Lᵢ)/t ∫ N (n·ω) dl over the borders of cells i and j, with N their unit normal from i to j. The cells are those of the grid where each has one ray and
     /// counts with its measure, the Voronoi cells of the rays elsewhere. A border at distance zero is left out; what is
     /// not a finite number is zero.
     ///
@@ -151,7 +151,7 @@ impl LightVector {
     ///
     /// Up to four walls are remembered, from rays less than 45° above the surface, each as a plane across the surface a
     /// hundredth before its foot. A wall that no such ray met is not known; a point beside a narrow thing may count as behind
-    /// it.
+    /// it. Inside a bowl the surface itself is such a wall, so that a light vector serves as far as its lowest ray only.
     ///
     /// # Examples
     /// ```
