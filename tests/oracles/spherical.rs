@@ -80,18 +80,23 @@ pub fn solid_angles(vertices: &[Vector]) -> (Fixed, Fixed) {
     (signed, unsigned)
 }
 
+/// ½ θ n̂ of the edge from a to b.
+pub fn edge_moment(a: &Vector, b: &Vector) -> Vector {
+    let normal = cross(a, b);
+    let length = dot(&normal, &normal).sqrt();
+    if length.is_zero() {
+        return Vector::default();
+    }
+    let angle = atan2(&length, &dot(a, b)).shifted(-1);
+    [0, 1, 2].map(|i| &(&normal[i] * &angle) / &length)
+}
+
 /// ½ Σ θₑ n̂ₑ.
 pub fn vector_moment(vertices: &[Vector]) -> Vector {
-    let mut sum = Vector::default();
-    for (a, b) in edges(vertices) {
-        let normal = cross(a, b);
-        let length = dot(&normal, &normal).sqrt();
-        if !length.is_zero() {
-            let angle = atan2(&length, &dot(a, b)).shifted(-1);
-            sum = [0, 1, 2].map(|i| &sum[i] + &(&(&normal[i] * &angle) / &length));
-        }
-    }
-    sum
+    edges(vertices).fold(Vector::default(), |sum, (a, b)| {
+        let term = edge_moment(a, b);
+        [0, 1, 2].map(|i| &sum[i] + &term[i])
+    })
 }
 
 /// n·½ Σ θₑ n̂ₑ.
@@ -121,7 +126,8 @@ fn clipped(vertices: &[Vector], n: &Vector) -> Vec<Vector> {
 /// ∫ max(0, n·ω) dω over the region on the left of the loop, whose solid angle is in [0, 4π): the triangles of a fan, each of
 /// them clipped, and as many hemispheres as the fan misses whole spheres.
 pub fn projected_above(vertices: &[Vector], n: &Vector) -> Fixed {
-    let apex = unit(&[3, -5, 7].map(Fixed::from));
+    // In no plane of a few small integers.
+    let apex = unit(&[37, -59, 83].map(Fixed::from));
     let parts = edges(vertices).fold(Fixed::default(), |sum, (a, b)| {
         let part = clipped(&[apex.clone(), a.clone(), b.clone()], n);
         if part.is_empty() { sum } else { &sum + &projected(&part, n) }
