@@ -75,8 +75,12 @@ mod incircle;
 mod measure;
 mod order;
 mod ordinary;
+mod outlines;
+mod pending;
 mod predicate;
 mod ray;
+mod shared;
+mod sites;
 mod twofold;
 mod validate;
 

@@ -96,7 +96,7 @@ pub fn slow(sites: &[DVec3], pole: Option<DVec3>) {
             "cell {i}: got {solid_angle} and {moment}, want {want:?}, {error:e} and {moment_error:e} off, allowed {allowed:e}, \
              for {sites:?} and the pole {pole:?}"
         );
-        let corners = got.cell(i).vertices();
+        let corners: Vec<DVec3> = got.cell(i).vertices().collect();
         let width = corners.iter().fold(0.0, |width: f64, corner| width.max(corner.distance(corners[0])));
         let judged = want.solid_angle > bound("judged", "*") && sharpest(&got, sites, pole, i) > bound("sharpest", "*");
         if corners.len() > 2 && width < bound("narrow", "*") && judged {
