@@ -19,6 +19,8 @@ pub(super) const ABOVE: Class = 1;
 pub(super) const BELOW: Class = 2;
 /// Not known well enough for doubles.
 pub(super) const SPECIAL: Class = 4;
+/// Beside `SPECIAL`: has been computed otherwise, in place of the facet's plane.
+pub(super) const SET: Class = 8;
 
 /// Corners of smaller sine than this between the facet's edges are not for doubles.
 const SHARP: f64 = 0.25;

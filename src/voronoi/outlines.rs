@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use super::HORIZON;
 use super::clip::{Cell, View};
-use super::corner::{self, ABOVE, BELOW, Class, SPECIAL};
+use super::corner::{self, ABOVE, BELOW, Class, SET, SPECIAL};
 use super::diagram::{Diagram, NO_VERTEX, Record};
 use super::hull::{Facet, Hull, Shape};
 use super::measure::{Corner, measure};
@@ -27,6 +27,8 @@ pub(super) struct Outlines {
     corner_of: Vec<u32>,
     pending: Pending,
     spokes: Vec<Spoke>,
+    /// The spokes whose neighbours come later.
+    later: Vec<u32>,
     shared: Shared,
     /// The edges of positive length of a cell that is cut: the facet at their start, and the neighbour with its ray.
     starts: Vec<u32>,
@@ -44,10 +46,18 @@ struct Spoke {
     offset: DVec3,
     square: f64,
     class: Class,
-    facet: u32,
+    /// Four times the facet, plus the index of the edge in it.
     edge: u32,
     neighbor: u32,
     is_flat: bool,
+}
+
+impl Spoke {
+    const NEW: Self = Self { offset: DVec3::ZERO, square: 0.0, class: 0, edge: 0, neighbor: 0, is_flat: false };
+
+    fn facet(&self) -> u32 {
+        self.edge >> 2
+    }
 }
 
 /// The parts of a diagram under construction.
@@ -138,7 +148,7 @@ impl Outlines {
                 self.starts.clear();
                 self.around.clear();
                 for spoke in self.spokes.iter().filter(|spoke| !spoke.is_flat) {
-                    self.starts.push(spoke.facet);
+                    self.starts.push(spoke.facet());
                     self.around.push(spoke.neighbor);
                 }
                 self.add_cut_cell(site, walk);
@@ -151,48 +161,51 @@ impl Outlines {
     fn set_spokes(&mut self, site: u32, walk: &mut Walk<'_>) -> Class {
         let Hull { facets, planes, .. } = &mut *walk.hull;
         let start = self.corner_of[site as usize];
-        let (mut corner, mut classes) = (start, 0);
+        let mut corner = start;
         self.spokes.clear();
+        // From facet to facet first, for each step waits for the one before; then what is there.
         loop {
             // The site after the next one is across the edge to the next corner.
-            let f = corner >> 2;
-            let facet = &facets[f as usize];
+            let facet = &facets[(corner >> 2) as usize];
             let (first, second) = NEXT[(corner & 3) as usize];
-            let class = facet.mark & CLASSES;
-            let plane = &mut planes[f as usize];
-            let [a, b, c] = facet.sites;
-            let offset = *plane + walk.sites.offset(a, site);
-            if class == ABOVE && a.max(b).max(c) == site {
-                *plane += walk.sites.unit(a);
-            }
-            classes |= class;
-            self.spokes.push(Spoke {
-                offset,
-                square: offset.length_squared(),
-                class,
-                facet: f,
-                edge: 4 * f + first,
-                neighbor: facet.sites[second as usize],
-                is_flat: facet.mark >> (FLAT + first) & 1 != 0,
-            });
+            let edge = corner - (corner & 3) + first;
+            self.spokes.push(Spoke { edge, neighbor: facet.sites[second as usize], ..Spoke::NEW });
             let across = facet.across[first as usize];
-            corner = if across & 3 == 2 { across - 2 } else { across + 1 };
+            corner = across - (across & 3) + NEXT[(across & 3) as usize].0;
             if corner == start {
-                return classes;
+                break;
             }
         }
+        let mut classes = 0;
+        for spoke in &mut self.spokes {
+            let Facet { sites: [a, b, c], mark, .. } = facets[(spoke.edge >> 2) as usize];
+            let plane = &mut planes[(spoke.edge >> 2) as usize];
+            spoke.offset = *plane + walk.sites.offset(a, site);
+            spoke.square = spoke.offset.length_squared();
+            spoke.class = mark & CLASSES;
+            spoke.is_flat = mark >> (FLAT + (spoke.edge & 3)) & 1 != 0;
+            let is_done = spoke.class == ABOVE && a.max(b).max(c) == site;
+            *plane += if is_done { walk.sites.unit(a) } else { DVec3::ZERO };
+            classes |= spoke.class;
+        }
+        classes
     }
 
     /// Adds the edges to later sites to both of their cells, and finds which of them have no length.
     #[inline(always)]
     fn add_edges(&mut self, site: u32, sum: &mut Sum, walk: &mut Walk<'_>) {
         let unit = walk.sites.unit(site);
-        for k in 0..self.spokes.len() {
-            let start = self.spokes[k];
-            if start.neighbor < site {
-                continue;
-            }
-            let end = &self.spokes[if k + 1 == self.spokes.len() { 0 } else { k + 1 }];
+        // Which they are is a matter of chance: a list, not a branch.
+        self.later.resize(self.spokes.len() + 1, 0);
+        let mut count = 0;
+        for (k, spoke) in (0..).zip(&self.spokes) {
+            self.later[count] = k;
+            count += usize::from(spoke.neighbor > site);
+        }
+        self.pending.reserve(count);
+        for &k in &self.later[..count] {
+            let start = &self.spokes[k as usize];
+            let end = &self.spokes[if k as usize + 1 == self.spokes.len() { 0 } else { k as usize + 1 }];
             let classes = start.class | end.class;
             let mut has_length = classes == ABOVE_AND_BELOW;
             if classes == ABOVE {
@@ -207,7 +220,7 @@ impl Outlines {
                 walk.hull.facets[f as usize].mark |= 1 << (FLAT + e);
                 walk.hull.facets[(across >> 2) as usize].mark |= 1 << (FLAT + (across & 3));
                 self.shared.push_flat(f, across >> 2);
-                self.spokes[k].is_flat = true;
+                self.spokes[k as usize].is_flat = true;
             }
         }
     }
@@ -217,7 +230,7 @@ impl Outlines {
     fn ordinary_cell(&mut self, sum: &Sum, walk: &mut Walk<'_>) -> Option<(f64, DVec3)> {
         for spoke in &self.spokes {
             if !spoke.is_flat {
-                walk.diagram.push_edge(walk.name(spoke.neighbor), spoke.facet);
+                walk.diagram.push_edge(walk.name(spoke.neighbor), spoke.facet());
             }
         }
         Some((sum.solid_angle(), sum.vector_moment()))
@@ -232,10 +245,10 @@ impl Outlines {
             let neighbor = start.neighbor;
             let name = walk.name(neighbor);
             match (start.class, end.class) {
-                (ABOVE, ABOVE) if !start.is_flat => walk.diagram.push_edge(name, start.facet),
+                (ABOVE, ABOVE) if !start.is_flat => walk.diagram.push_edge(name, start.facet()),
                 (ABOVE, BELOW) => {
                     let exit = crossing(walk.sites.offset(site, neighbor), pole)?;
-                    walk.diagram.push_edge(name, start.facet);
+                    walk.diagram.push_edge(name, start.facet());
                     walk.diagram.push_edge(HORIZON, self.shared.crossing(site, neighbor, exit));
                     let e = exit - unit;
                     gap[0] = e;
@@ -410,8 +423,6 @@ const NEXT: [(u32, u32); 3] = [(1, 2), (2, 0), (0, 1)];
 
 const ABOVE_AND_BELOW: Class = ABOVE | BELOW;
 
-/// The bits of a facet's mark: the class of its corner, whether a special one was computed, and, from `FLAT` on, which of
-/// its edges have no length.
+/// The bits of a facet's mark: the class of its corner, `SET`, and, from `FLAT` on, which of its edges have no length.
 const CLASSES: Class = ABOVE | BELOW | SPECIAL;
-const SET: u32 = 8;
 const FLAT: u32 = 4;

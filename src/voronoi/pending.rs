@@ -22,16 +22,24 @@ impl Pending {
         self.places.resize(len, NONE);
     }
 
-    /// The sum of `site`.
+    /// Has free places for `count` more sums.
+    #[inline(always)]
+    pub fn reserve(&mut self, count: usize) {
+        while self.free.len() < count {
+            self.free.push(self.sums.len() as u32);
+            self.sums.push(Sum::default());
+        }
+    }
+
+    /// The sum of `site`, for which there must be a place.
     #[inline(always)]
     pub fn of(&mut self, site: u32) -> &mut Sum {
         let place = &mut self.places[site as usize];
-        if *place == NONE {
-            *place = self.free.pop().unwrap_or_else(|| {
-                self.sums.push(Sum::default());
-                self.sums.len() as u32 - 1
-            });
-        }
+        // Whether it is new is a matter of chance: no branch.
+        let last = self.free.len() - 1;
+        let is_new = *place == NONE;
+        *place = if is_new { self.free[last] } else { *place };
+        self.free.truncate(last + usize::from(!is_new));
         &mut self.sums[*place as usize]
     }
 
