@@ -70,6 +70,8 @@ pub(super) struct Hull {
     pub ring: Vec<u32>,
     /// Unit vectors from the centre, if that is not the origin.
     moved: Vec<DVec3>,
+    /// The rays of sites on a circle.
+    rays: Vec<Ray>,
     stack: Vec<u32>,
     hole: Vec<u32>,
     rim: Vec<Rim>,
@@ -365,26 +367,27 @@ impl Hull {
             self.ring.extend([first, second]);
             return;
         };
-        let rays: Vec<Ray> = (0..sites.len() as u32).map(|site| sites.ray(site)).collect();
+        let Self { rays, ring, twins, .. } = self;
+        rays.clear();
+        rays.extend((0..sites.len() as u32).map(|site| sites.ray(site)));
         let ray = |site: u32| &rays[site as usize];
         let turn = Turn::new(&origin, ray(second), ray(third));
         for site in 1..sites.len() as u32 {
             if ray(site).is_along(&origin) {
-                self.twins.push((site, first));
+                twins.push((site, first));
             } else {
-                self.ring.push(site);
+                ring.push(site);
             }
         }
-        self.ring.sort_unstable_by(|&p, &q| turn.compare(ray(p), ray(q)));
-        let twins = &mut self.twins;
-        self.ring.dedup_by(|site, kept| {
+        ring.sort_unstable_by(|&p, &q| turn.compare(ray(p), ray(q)));
+        ring.dedup_by(|site, kept| {
             let is_twin = ray(*site).is_along(ray(*kept));
             if is_twin {
                 twins.push((*site, *kept));
             }
             is_twin
         });
-        self.ring.push(first);
+        ring.push(first);
     }
 }
 
