@@ -50,16 +50,6 @@ impl Side {
 }
 
 impl Sum {
-    /// A finished sum, which `measure` gives back.
-    pub fn finished(solid_angle: f64, vector_moment: DVec3) -> Self {
-        Self { re: solid_angle, im: 0.0, moment: vector_moment }
-    }
-
-    /// What a finished sum was made of.
-    pub fn measure(&self) -> (f64, DVec3) {
-        (self.re, self.moment)
-    }
-
     /// Adds an edge with the site on its left.
     #[inline(always)]
     pub fn add(&mut self, side: &Side) {
