@@ -110,32 +110,3 @@ fn check(sites: &[DVec3]) -> Result<(), VoronoiError> {
     }
     Ok(())
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Every buffer of a builder: where it is and how much it holds.
-    fn buffers(builder: &Builder) -> Vec<(usize, usize)> {
-        fn of<T>(buffer: &Vec<T>) -> (usize, usize) {
-            (buffer.as_ptr() as usize, buffer.capacity())
-        }
-        let mut all = vec![of(&builder.keys), of(&builder.rests), of(&builder.hull.facets)];
-        all.extend(builder.outlines.buffers());
-        all
-    }
-
-    #[test]
-    fn a_warm_builder_keeps_its_buffers() {
-        let sites: Vec<DVec3> =
-            (0..100).map(|k| DVec3::new(f64::from(k % 10) - 4.5, f64::from(k / 10) - 4.5, 3.0)).collect();
-        let mut builder = Builder::new();
-        for pass in 0..3 {
-            let before = (buffers(&builder), builder.diagram.buffers());
-            assert!(builder.sphere(&sites).is_ok());
-            assert!(builder.hemisphere(&sites, DVec3::Z).is_ok());
-            assert!(builder.hemisphere(&sites[..10], DVec3::X).is_ok());
-            assert!(pass == 0 || before == (buffers(&builder), builder.diagram.buffers()), "in pass {pass}");
-        }
-    }
-}

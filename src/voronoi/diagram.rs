@@ -218,19 +218,3 @@ impl<'a> Cell<'a> {
         &self.diagram.neighbors[self.diagram.outline(self.index)]
     }
 }
-
-#[cfg(test)]
-impl Diagram {
-    /// Capacities of the buffers, for the test that a warm builder keeps them.
-    pub(super) fn buffers(&self) -> [usize; 7] {
-        [
-            self.solid_angles.capacity(),
-            self.vector_moments.capacity(),
-            self.records.capacity(),
-            self.directions.capacity(),
-            self.neighbors.capacity(),
-            self.vertex_indices.capacity(),
-            self.vertices.capacity(),
-        ]
-    }
-}

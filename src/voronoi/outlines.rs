@@ -12,7 +12,7 @@ use super::clip::{Cell, View};
 use super::corner::{self, ABOVE, BELOW, Class, SET, SPECIAL};
 use super::diagram::{Diagram, NO_VERTEX, Record};
 use super::hull::{Facet, Hull, Shape};
-use super::measure::{Corner, measure};
+use super::measure::{Corner, is_thin, measure};
 use super::ordinary::{Side, Sum};
 use super::pending::Pending;
 use super::predicate::orientation;
@@ -147,9 +147,13 @@ impl Outlines {
                 walk.diagram.drop_outline(start);
                 self.starts.clear();
                 self.around.clear();
-                for spoke in self.spokes.iter().filter(|spoke| !spoke.is_flat) {
-                    self.starts.push(spoke.facet());
-                    self.around.push(spoke.neighbor);
+                for (k, spoke) in self.spokes.iter().enumerate() {
+                    let end = &self.spokes[if k + 1 == self.spokes.len() { 0 } else { k + 1 }];
+                    let is_below = spoke.class | end.class == BELOW;
+                    if !(spoke.is_flat || is_below && walk.hull.is_flat(walk.sites, spoke.edge)) {
+                        self.starts.push(spoke.facet());
+                        self.around.push(spoke.neighbor);
+                    }
                 }
                 self.add_cut_cell(site, walk);
             }
@@ -207,7 +211,8 @@ impl Outlines {
             let start = &self.spokes[k as usize];
             let end = &self.spokes[if k as usize + 1 == self.spokes.len() { 0 } else { k as usize + 1 }];
             let classes = start.class | end.class;
-            let mut has_length = classes == ABOVE_AND_BELOW;
+            // Below the horizon nobody asks, but for a cell that is cut.
+            let mut has_length = classes == ABOVE_AND_BELOW || classes == BELOW;
             if classes == ABOVE {
                 let side = Side::new(unit, unit + start.offset, start.offset, end.offset, start.square + end.square);
                 has_length = side.chord.length_squared() > SURE_LENGTH * SURE_LENGTH * start.square;
@@ -225,15 +230,18 @@ impl Outlines {
         }
     }
 
-    /// Adds the outline of a cell of ordinary corners above the horizon.
+    /// Adds the outline of a cell of ordinary corners above the horizon, unless it is thin.
     #[inline(always)]
     fn ordinary_cell(&mut self, sum: &Sum, walk: &mut Walk<'_>) -> Option<(f64, DVec3)> {
+        let mut reach = 0.0;
         for spoke in &self.spokes {
+            reach = if spoke.square > reach { spoke.square } else { reach };
             if !spoke.is_flat {
                 walk.diagram.push_edge(walk.name(spoke.neighbor), spoke.facet());
             }
         }
-        Some((sum.solid_angle(), sum.vector_moment()))
+        let solid_angle = sum.solid_angle();
+        (!is_thin(solid_angle, reach)).then(|| (solid_angle, sum.vector_moment()))
     }
 
     /// Adds the outline of a cell of ordinary corners above the horizon and some below, unless doubles are not enough.
@@ -270,9 +278,13 @@ impl Outlines {
         if (unit + d).dot(unit).min((unit + e).dot(unit)) <= NEAR {
             return None;
         }
-        sum.add(&Side::new(unit, unit + d, d, e, d.length_squared() + e.length_squared()));
+        let (at_exit, at_entry) = (d.length_squared(), e.length_squared());
+        sum.add(&Side::new(unit, unit + d, d, e, at_exit + at_entry));
+        let above = self.spokes.iter().filter(|spoke| spoke.class == ABOVE);
+        let reach = above.map(|spoke| spoke.square).fold(at_exit.max(at_entry), f64::max);
         let solid_angle = sum.solid_angle();
-        (solid_angle >= NARROW * NARROW).then(|| (solid_angle, sum.vector_moment()))
+        let good = solid_angle >= NARROW * NARROW && !is_thin(solid_angle, reach);
+        good.then(|| (solid_angle, sum.vector_moment()))
     }
 
     /// Adds the cell of `site` with the neighbours `around`, whose edges start at the facets `starts`.
@@ -313,22 +325,6 @@ impl Outlines {
             }
         }
         walk.finish(site, start, solid_angle, vector_moment);
-    }
-
-    #[cfg(test)]
-    pub fn buffers(&self) -> Vec<(usize, usize)> {
-        fn of<T>(buffer: &Vec<T>) -> (usize, usize) {
-            (buffer.as_ptr() as usize, buffer.capacity())
-        }
-        vec![
-            of(&self.corner_of),
-            of(&self.spokes),
-            of(&self.starts),
-            of(&self.around),
-            of(&self.rays),
-            of(&self.corners),
-            of(&self.cell.sides),
-        ]
     }
 }
 
