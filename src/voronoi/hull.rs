@@ -20,7 +20,7 @@ use glam::DVec3;
 
 use super::corner::{SET, SPECIAL};
 use super::error::VoronoiError;
-use super::incircle::{Turn, in_circle, nearer};
+use super::incircle::{Turn, in_circle, in_circle_of_sites, nearer};
 use super::order;
 use super::ray::Ray;
 use super::sites::Sites;
@@ -99,8 +99,7 @@ impl Points<'_> {
 
     #[inline(never)]
     fn in_circle(&self, facet: &Facet, site: u32) -> i32 {
-        let [a, b, c] = facet.sites.map(|site| self.sites.ray(site));
-        in_circle(&a, &b, &c, &self.sites.ray(site))
+        in_circle_of_sites(self.sites, facet.sites, site)
     }
 }
 
@@ -358,8 +357,7 @@ impl Hull {
                 return false;
             }
         }
-        let [a, b, c] = facet.sites.map(|site| sites.ray(site));
-        in_circle(&a, &b, &c, &sites.ray(other)) == 0
+        in_circle_of_sites(sites, facet.sites, other) == 0
     }
 
     /// Sorts the sites of one circle around it.
