@@ -55,9 +55,9 @@
 //!
 //! Sites are numbered along the curve. The planes of the hull become the corners of the diagram in place, and a sum of a cell
 //! is under way from its first edge to its last only, so that a million sites take 290 bytes each, results included.
-//! Measures included, a thousand sites take about 0.3 µs each and a million 0.9 µs, up to 2.3 times that on grids of
+//! Measures included, a thousand sites take about 0.3 µs each and a million 0.9 to 1.2 µs, up to twice that on grids of
 //! latitudes and longitudes, whose circles integers decide. Sites almost on one circle have sharp corners and thin cells
-//! only, which cost up to 27 µs a site: docs/performance.md.
+//! only, which cost up to 21 µs a site: docs/performance.md.
 //!
 //! # Not here
 //!
