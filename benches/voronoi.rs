@@ -7,7 +7,7 @@ use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use steradian::glam::DVec3;
-use steradian::voronoi::{Builder, Diagram, VoronoiError};
+use steradian::voronoi::{self, Builder, Diagram, Locator, VoronoiError};
 
 #[path = "../tests/bounds/voronoi.rs"]
 #[allow(dead_code, reason = "uses a part of the table")]
@@ -64,9 +64,28 @@ fn diagrams(criterion: &mut Criterion) {
     }
 }
 
+/// Asserts that sites are nearest to themselves, then times random directions one after another.
+fn queries(criterion: &mut Criterion) {
+    let mut rng = seeds::rng(2);
+    let mut group = criterion.benchmark_group("voronoi");
+    group.throughput(Throughput::Elements(1));
+    for n in [1000, 100_000] {
+        let sites = make(Kind::Uniform, n, &mut rng);
+        let directions = make(Kind::Uniform, 10_000, &mut rng);
+        let diagram = voronoi::sphere(&sites).expect("sites are valid");
+        let locator = Locator::new(&diagram, &sites).expect("these are the sites of the diagram");
+        assert!((0..n).step_by(97).all(|site| locator.nearest(sites[site]) == Ok(site)));
+        let mut next = directions.iter().cycle();
+        group.bench_function(format!("nearest/{n}"), |bencher| {
+            bencher.iter(|| next.next().map(|&direction| locator.nearest(black_box(direction))));
+        });
+    }
+    group.finish();
+}
+
 criterion_group! {
     name = benches;
     config = Criterion::default().sample_size(20);
-    targets = diagrams
+    targets = diagrams, queries
 }
 criterion_main!(benches);

@@ -53,10 +53,12 @@ impl<'a> View<'a> {
     ///
     /// For bisectors of the site i with j and k, u_i − u_k may be replaced by u_j − u_k, which makes a better angle when
     /// j and k are close to each other.
-    pub fn sharp_corner(&self, before: u32, at: u32) -> Twofold3 {
+    ///
+    /// `normals` are those of the two edges.
+    pub fn sharp_corner(&self, before: u32, at: u32, normals: [Twofold3; 2]) -> Twofold3 {
         let (a, b) = (self.plane(before), self.plane(at));
-        let normal = a.twofold(self.site);
-        let corner = normal.cross(b.twofold(self.site));
+        let [normal, second] = normals;
+        let corner = normal.cross(second);
         if let (Plane::Bisector(j), Plane::Bisector(k)) = (a, b) {
             let other = normal.cross(j.bisector(k));
             if other.hi().length_squared() > corner.hi().length_squared() {

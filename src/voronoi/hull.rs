@@ -20,7 +20,7 @@ use glam::DVec3;
 
 use super::corner::{SET, SPECIAL};
 use super::error::VoronoiError;
-use super::incircle::{Turn, in_circle, nearer};
+use super::incircle::{Turn, in_circle, in_circle_of_sites, nearer};
 use super::order;
 use super::ray::Ray;
 use super::sites::Sites;
@@ -99,8 +99,7 @@ impl Points<'_> {
 
     #[inline(never)]
     fn in_circle(&self, facet: &Facet, site: u32) -> i32 {
-        let [a, b, c] = facet.sites.map(|site| self.sites.ray(site));
-        in_circle(&a, &b, &c, &self.sites.ray(site))
+        in_circle_of_sites(self.sites, facet.sites, site)
     }
 }
 
@@ -140,7 +139,12 @@ impl Hull {
         let mut moved = core::mem::take(&mut self.moved);
         moved.clear();
         if let Some(centre) = centre(start.map(|site| sites.unit(site))) {
-            moved.extend((0..sites.len() as u32).map(|site| sites.ray(site).minus(centre)));
+            let all = 0..sites.len() as u32;
+            if centre.length_squared() < WIDE * WIDE {
+                moved.extend(all.map(|site| sites.minus(site, centre)));
+            } else {
+                moved.extend(all.map(|site| sites.ray(site).minus(centre)));
+            }
         }
         let points = if moved.is_empty() { sites.units() } else { &moved };
         let size = points.iter().fold(0.0, |size: f64, point| size.max(point.abs().max_element()));
@@ -353,8 +357,7 @@ impl Hull {
                 return false;
             }
         }
-        let [a, b, c] = facet.sites.map(|site| sites.ray(site));
-        in_circle(&a, &b, &c, &sites.ray(other)) == 0
+        in_circle_of_sites(sites, facet.sites, other) == 0
     }
 
     /// Sorts the sites of one circle around it.
@@ -506,6 +509,9 @@ fn far_from_plane(sites: Sites<'_>, first: u32, second: u32, third: u32) -> Opti
 
 /// Number of sites, or up to twice as many, of which the first four are taken.
 const SAMPLE: usize = 50;
+
+/// About a centre closer to the origin, points are so large that rests of 24 bits do.
+const WIDE: f64 = 0.9;
 
 /// The origin is the centre if it is this deep within the first four sites.
 const DEEP: f64 = 1.0 / 16.0;

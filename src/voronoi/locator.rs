@@ -22,9 +22,10 @@ use super::ray::Ray;
 ///
 /// # Cost
 ///
-/// About 0.2 µs for a random direction among a million random sites, and 2 bytes a site; a walk from a hint takes about
-/// 20 ns a step, and about as many steps as there are cells between. Where sites are much denser than the grid, as in
-/// clusters, a query takes as many steps as there are cells across one of the grid's.
+/// Of random directions among random sites: 0.15 µs for a thousand sites and 1.3 µs for a million, most of it waiting for
+/// memory; 0.06 to 0.25 µs and 2 bytes a site to make. A walk from a hint takes 10 to 120 ns a step, and about as many steps
+/// as there are cells between. Where sites are much denser than the grid, as in clusters, a query takes as many steps as
+/// there are cells across one of the grid's.
 ///
 /// # Examples
 ///

@@ -119,9 +119,11 @@ fn set_corners(view: &View<'_>, edges: &[Edge], corners: &mut Vec<Corner>) {
 
 fn set_twofold_corners(view: &View<'_>, edges: &[Edge], corners: &mut [Corner]) {
     let mut before = edges[edges.len() - 1].id;
+    let mut normal = view.plane(before).twofold(view.site);
     for (edge, corner) in edges.iter().zip(corners) {
-        *corner = twofold_corner(view, before, edge.id);
-        before = edge.id;
+        let next = view.plane(edge.id).twofold(view.site);
+        *corner = corner_of_normals(view, before, edge.id, [normal, next]);
+        (before, normal) = (edge.id, next);
     }
 }
 
@@ -139,13 +141,19 @@ fn double_corner(view: &View<'_>, before: u32, edge: &Edge) -> Option<Corner> {
 /// A cross product of twofold numbers is off by 2⁻¹⁰⁴ over the sine in any direction; along the planes this moves almost
 /// nothing, and across them it is taken out.
 fn twofold_corner(view: &View<'_>, before: u32, at: u32) -> Corner {
-    let corner = view.sharp_corner(before, at);
+    let normals = [before, at].map(|id| view.plane(id).twofold(view.site));
+    corner_of_normals(view, before, at, normals)
+}
+
+/// The same with the normals of the two edges.
+fn corner_of_normals(view: &View<'_>, before: u32, at: u32, normals: [Twofold3; 2]) -> Corner {
+    let corner = view.sharp_corner(before, at, normals);
     let unit = if corner.hi().length_squared() < BLUNT * BLUNT {
         Twofold3::from_sum(view.corner_by_sides(before, at), DVec3::ZERO)
     } else {
         corner.unit()
     };
-    let normal = view.plane(at).twofold(view.site);
+    let [_, normal] = normals;
     let unit = unit.add(normal.scale(unit.dot(normal).negate())).unit();
     Corner { unit: unit.hi(), rest: unit.lo() }
 }

@@ -53,9 +53,11 @@
 //! measured edge by edge, both cells of an edge at once, and by one arctangent, and so are their parts above a horizon; all
 //! others corner by corner, in twofold numbers where they are small, sharp or thin.
 //!
-//! About 0.25 µs a site for some hundreds of sites and 0.7 to 1.1 µs for a million, measures included; up to 2.2 times that
-//! on lattices. Sites almost on one circle have sharp corners only, which cost 5 to 8 µs a site. A million sites take 650
-//! bytes each: docs/performance.md.
+//! Sites are numbered along the curve. The planes of the hull become the corners of the diagram in place, and a sum of a cell
+//! is under way from its first edge to its last only, so that a million sites take 290 bytes each, results included.
+//! Measures included, a thousand sites take about 0.3 µs each and a million 0.9 to 1.2 µs, up to twice that on grids of
+//! latitudes and longitudes, whose circles integers decide. Sites almost on one circle have sharp corners and thin cells
+//! only, which cost up to 21 µs a site: docs/performance.md.
 //!
 //! # Not here
 //!

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::order;
 use super::ray::Ray;
+use super::twofold::Twofold3;
 
 /// What the work on each site needs often: unit vectors. The rays themselves are made anew where it takes them.
 #[derive(Clone, Copy, Debug)]
@@ -61,6 +62,13 @@ impl<'a> Sites<'a> {
     #[inline(always)]
     pub fn unit(&self, site: u32) -> DVec3 {
         self.units[site as usize]
+    }
+
+    /// The unit vector of a site less a vector of doubles, each component right to u of itself and 2⁻⁷⁷.
+    #[inline(always)]
+    pub fn minus(&self, site: u32, v: DVec3) -> DVec3 {
+        let difference = Twofold3::from_difference(self.unit(site), v);
+        difference.hi() + (difference.lo() + DVec3::from_array(self.rests[site as usize].map(f64::from)))
     }
 
     /// The unit vector of one site less that of another, each component right to 3 u and 2⁻⁷⁶.
