@@ -30,11 +30,15 @@ const ROUND: f64 = 6_755_399_441_055_744.0;
 /// Argument of re + i im in (−π, π], with a relative error below 2⁻⁶⁴; 0 for 0 + 0i.
 #[inline(always)]
 pub(super) fn argument<T: Real>(re: Double<T>, im: Double<T>) -> Double {
-    reflected(re, im, quotient, |d| {
+    let arctangent = |d: Double<T>| {
         let s = d.hi * d.hi;
         Double { hi: d.hi, lo: d.lo + s * d.hi * series(s) }
-    })
-    .cast()
+    };
+    if 128.0 * im.hi.get().abs() <= re.hi.get() && re.hi.get() > 0.0 {
+        // The same as below with k = 0: polygons of less than a degree or so, the most frequent case by far.
+        return arctangent(quotient(im, re)).cast();
+    }
+    reflected(re, im, quotient, arctangent).cast()
 }
 
 /// `argument` with a relative error of a few u²: the quotient is refined, and the polynomial's first terms are in double
@@ -58,6 +62,10 @@ pub(super) fn long_argument(re: Double, im: Double) -> Double {
 /// Argument of re + i im in (−π, π], to within 4u; 0 for 0 + 0i.
 #[inline(always)]
 pub(super) fn short_argument(re: f64, im: f64) -> f64 {
+    if 128.0 * im.abs() <= re && re > 0.0 {
+        let d = im / re;
+        return d + d * d * d * series(d * d);
+    }
     let (x, y) = (re.abs(), im.abs());
     let (long, short) = if y > x { (y, x) } else { (x, y) };
     if long == 0.0 {
@@ -108,7 +116,7 @@ fn reflected<T: Real>(
     let k = (64.0 * (y.hi.get() / x.hi.get()) + ROUND) - ROUND;
     let atan = arctangent(quotient(combined(y, x, -k), combined(x, y, k)));
     // The angle is turns·π/2 ± (table + atan).
-    let (hi, lo) = ARCTANGENTS[k as usize];
+    let (hi, lo) = ARCTANGENTS[(k as usize).min(64)];
     let quarters = if steep {
         1.0
     } else if behind {

@@ -35,8 +35,6 @@
 //! angles", 1990 (the same quotient for unit vectors); Mazonka, "Solid angle of conical surfaces, polyhedral cones, and
 //! intersecting spherical caps", 2012 (one argument of a product).
 
-use core::f64::consts::PI;
-
 use glam::DVec3;
 
 use super::argument::argument;
@@ -46,16 +44,13 @@ use super::exact;
 use super::kernel::{self, Complex, denominator, numerator, times};
 
 /// Below this part of the two lengths the compensated numerator is not trusted: 2⁻⁴².
-const NUMERATOR_FLOOR: f64 = 1.0 / (1_u64 << 42) as f64;
+pub(super) const NUMERATOR_FLOOR: f64 = 1.0 / (1_u64 << 42) as f64;
 
 /// Below this magnitude of a factor some edge is nearly a half turn: 2⁻¹⁶.
-const FACTOR_FLOOR: f64 = 1.0 / (1_u64 << 16) as f64;
+pub(super) const FACTOR_FLOOR: f64 = 1.0 / (1_u64 << 16) as f64;
 
 /// What is left of parts that cancel, relative to the parts, is noise below this: 2⁻⁹⁸.
 const NOISE: f64 = 1.0 / ((1_u64 << 49) as f64 * (1_u64 << 49) as f64);
-
-/// 4π − `4.0 * PI`.
-const FOUR_PI_LOW: f64 = 4.898_587_196_589_413e-16;
 
 /// What the fan of a loop adds up to.
 #[derive(Clone, Copy, Debug, Default)]
@@ -74,21 +69,12 @@ pub(super) struct Fan {
 impl Fan {
     /// The signed solid angle before it is rounded.
     pub fn angle(&self) -> Double {
-        Double { hi: 2.0 * self.half.hi, lo: 2.0 * self.half.lo }
+        self.half.twice()
     }
 
     /// The signed solid angle, in (−2π, 2π].
     pub fn signed(&self) -> f64 {
         2.0 * self.half.value()
-    }
-
-    /// The solid angle of the region on the left, in [0, 4π).
-    pub fn unsigned(&self) -> f64 {
-        if self.half.hi >= 0.0 {
-            return self.signed();
-        }
-        let sum = Double::sum(4.0 * PI, 2.0 * self.half.hi);
-        sum.hi + (sum.lo + (2.0 * self.half.lo + FOUR_PI_LOW))
     }
 }
 
@@ -294,9 +280,16 @@ mod tests {
 
     use glam::DVec3;
 
-    use super::super::dispatch::Kernel;
-    use super::super::fused::Fused;
-    use super::{Fan, Loop, excess, fan};
+    #[cfg(target_arch = "x86_64")]
+    use super::super::{
+        dispatch::{Fused, Kernel, has_registers},
+        double::{Number, Real},
+        triangle::Triangle,
+    };
+    #[cfg(target_arch = "x86_64")]
+    #[cfg(target_arch = "x86_64")]
+    use super::Loop;
+    use super::{Fan, excess, fan};
 
     /// The sum over the fan, not reduced.
     fn total(fan: &Fan) -> f64 {
@@ -338,6 +331,7 @@ mod tests {
     }
 
     /// Loops of every kind that the kernel tells apart, from a linear congruence.
+    #[cfg(target_arch = "x86_64")]
     fn loops() -> impl Iterator<Item = Vec<DVec3>> {
         let mut state = 1_u64;
         let mut next = move || {
@@ -362,17 +356,41 @@ mod tests {
                 4 => vec![a, b, -a, direction(), near(-a, direction())],
                 5 => (0..40).map(|_| direction()).collect(),
                 6 => vec![a, b, -(a + b).normalize(), near(a, direction())],
-                _ => (0..6).map(|_| near(DVec3::Z, size * direction() * DVec3::new(1.0, 1e-250, 1.0))).collect(),
+                _ => {
+                    // Products below 2⁻⁹⁶⁹, which lose low bits, and below 2⁻¹⁰⁷⁴, which vanish.
+                    let flat = DVec3::new(1.0, 10_f64.powi(-(i / 8 % 320)), 1.0);
+                    (0..3 + i / 8 % 2 * 3).map(|_| near(DVec3::Z, size * direction() * flat)).collect()
+                }
             }
         })
     }
 
+    #[cfg(target_arch = "x86_64")]
+    #[test]
+    fn both_copies_multiply_alike_down_to_the_smallest_doubles() {
+        for i in 0..4000_u32 {
+            let (a, b) = (1.0 / f64::from(2 * i + 3), 0.7 / f64::from(i + 1));
+            let b = b * 2_f64.powi(-960) * 2_f64.powi(-(i as i32 % 120));
+            let (split, fused) =
+                (<f64 as Number>::product(a, b), Fused::product(Fused::constant(a), Fused::constant(b)));
+            assert_eq!((split.hi, split.lo), (fused.hi.get(), fused.lo.get()), "{a:e} · {b:e}");
+        }
+    }
+
+    #[cfg(target_arch = "x86_64")]
     #[test]
     fn both_copies_give_the_same_bits() {
         for vertices in loops() {
             let (split, fused) = (Loop(&vertices).run::<f64>(), Loop(&vertices).run::<Fused>());
             assert_eq!(format!("{split:?}"), format!("{fused:?}"), "{vertices:?}");
             assert_eq!(format!("{split:?}"), format!("{:?}", fan(&vertices)), "{vertices:?}");
+            let [a, b, c] = &vertices[..] else { continue };
+            if has_registers() {
+                let (split, fused) = (Triangle(a, b, c).run::<f64>(), Triangle(a, b, c).run::<Fused>());
+                assert_eq!(format!("{split:?}"), format!("{fused:?}"), "{vertices:?}");
+                let whole = fan(&vertices).angle().value();
+                assert!(split.is_none_or(|quick| quick.value() == whole), "{vertices:?}: {split:?} against {whole:e}");
+            }
         }
     }
 }

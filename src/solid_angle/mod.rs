@@ -65,14 +65,15 @@ mod exact;
 mod fan;
 pub mod fast;
 pub mod formula;
-mod fused;
 mod geographic;
 mod kernel;
 mod moment;
 mod product;
 mod seen;
+mod triangle;
 mod winding;
 
+use double::Double;
 use glam::DVec3;
 
 pub use bounded::{Bounded, polygon_bounded, signed_polygon_bounded};
@@ -126,8 +127,12 @@ pub const MOMENT_BOUND: f64 = 8.0;
 /// assert_eq!(solid_angle::triangle(DVec3::Z, DVec3::Y, DVec3::X)?, -FRAC_PI_2);
 /// # Ok::<(), solid_angle::SolidAngleError>(())
 /// ```
+#[inline]
 pub fn triangle(a: DVec3, b: DVec3, c: DVec3) -> Result<f64, SolidAngleError> {
-    signed_polygon(&[a, b, c])
+    match triangle::angle(&a, &b, &c) {
+        Some(angle) => Ok(angle.value()),
+        None => careful_angle(&[a, b, c]).map(Double::value),
+    }
 }
 
 /// Solid angle of the region on the left of the closed loop `vertices`, in steradians.
@@ -169,7 +174,7 @@ pub fn triangle(a: DVec3, b: DVec3, c: DVec3) -> Result<f64, SolidAngleError> {
 /// # Ok::<(), solid_angle::SolidAngleError>(())
 /// ```
 pub fn polygon(vertices: &[DVec3]) -> Result<f64, SolidAngleError> {
-    measured(vertices, |pruned| fan::fan(pruned).unsigned())
+    angle(vertices).map(product::unsigned)
 }
 
 /// Signed solid angle of the region on the left of the closed loop `vertices`, in steradians.
@@ -200,7 +205,7 @@ pub fn polygon(vertices: &[DVec3]) -> Result<f64, SolidAngleError> {
 /// # Ok::<(), solid_angle::SolidAngleError>(())
 /// ```
 pub fn signed_polygon(vertices: &[DVec3]) -> Result<f64, SolidAngleError> {
-    measured(vertices, |pruned| fan::fan(pruned).signed())
+    angle(vertices).map(Double::value)
 }
 
 /// Vector moment ∫ ω dω of the region on the left of the closed loop `vertices`.
@@ -241,6 +246,19 @@ pub fn signed_polygon(vertices: &[DVec3]) -> Result<f64, SolidAngleError> {
 /// ```
 pub fn vector_moment(vertices: &[DVec3]) -> Result<DVec3, SolidAngleError> {
     measured(vertices, moment::vector_moment)
+}
+
+/// The signed solid angle of the loop, in (−2π, 2π].
+#[inline(always)]
+fn angle(vertices: &[DVec3]) -> Result<Double, SolidAngleError> {
+    let quick = if let [a, b, c] = vertices { triangle::angle(a, b, c) } else { None };
+    quick.map_or_else(|| careful_angle(vertices), Ok)
+}
+
+/// The same of a loop that may break a rule or need pruning.
+#[inline(never)]
+fn careful_angle(vertices: &[DVec3]) -> Result<Double, SolidAngleError> {
+    measured(vertices, |pruned| fan::fan(pruned).angle())
 }
 
 /// `measure` of the loop, checked and pruned.

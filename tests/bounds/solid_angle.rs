@@ -64,6 +64,7 @@ pub const TABLE: &[(&str, &str, f64, &str)] = &[
     ("l_huilier", "bench", 1e-12, "searched: bench"),
     ("interior_angles_acos", "bench", 1e-11, "searched: bench"),
     ("turning", "bench", 1e-11, "searched: bench"),
+    ("s2geometry", "bench", 1e-12, "searched: bench"),
 ];
 
 /// The bound of `function` in `regime`: the longest prefix wins.
