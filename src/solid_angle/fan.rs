@@ -38,10 +38,11 @@
 use glam::DVec3;
 
 use super::argument::argument;
+use super::check::UNIT_TOLERANCE;
 use super::dispatch::{self, Kernel};
 use super::double::{Double, Real, dot, three};
 use super::exact;
-use super::kernel::{self, Complex, denominator, numerator, times};
+use super::kernel::{self, Complex, denominator, excess_of, numerator, times};
 
 /// Below this part of the two lengths the compensated numerator is not trusted: 2⁻⁴².
 pub(super) const NUMERATOR_FLOOR: f64 = 1.0 / (1_u64 << 42) as f64;
@@ -80,32 +81,64 @@ impl Fan {
 
 /// The fan of a loop without whiskers; any loop of fewer than three vertices has none.
 pub(super) fn fan(vertices: &[DVec3]) -> Fan {
-    dispatch::run(Loop(vertices))
+    dispatch::run(Loop { vertices, checked: true }).unwrap_or_default()
 }
 
-struct Loop<'a>(&'a [DVec3]);
+/// The fan of a loop that nobody has checked; none where it takes a closer look.
+///
+/// What a loop is checked for shows in what is computed anyway: the norms are known, and equal or opposite directions make
+/// N or z nothing. An edge walked forth and back makes two neighbouring factors conjugate, or stands at the apex.
+pub(super) fn unchecked(vertices: &[DVec3]) -> Option<Fan> {
+    let [_, second, .., last] = vertices else { return None };
+    if (*second - *last).abs().max_element() <= UNIT_TOLERANCE * 2.0 {
+        return None;
+    }
+    dispatch::run(Loop { vertices, checked: false })
+}
+
+struct Loop<'a> {
+    vertices: &'a [DVec3],
+    /// Whether the loop is checked and pruned. If it is not, the kernel gives up where that may matter.
+    checked: bool,
+}
+
+/// Numerators of neighbouring factors that are opposite to within this part may be an edge walked forth and back: 2⁻³⁸.
+const CONJUGATE: f64 = 1.0 / (1_u64 << 38) as f64;
 
 impl Kernel for Loop<'_> {
-    type Output = Fan;
+    type Output = Option<Fan>;
 
     #[inline(always)]
-    fn run<T: Real>(self) -> Fan {
-        let [apex, first, rest @ ..] = self.0 else { return Fan::default() };
+    fn run<T: Real>(self) -> Option<Fan> {
+        let [apex, first, rest @ ..] = self.vertices else { return Some(Fan::default()) };
         let apex = Apex::<T>::new(apex.to_array());
         let mut sum = Fan::default();
         let mut product = None;
         let mut b = Spoke::new(&apex, first.to_array());
         let mut rest = rest.iter();
+        if !(self.checked || (surely_unit(apex.norm_error) && surely_unit(b.norm_error))) {
+            return None;
+        }
+        let mut before = 0.0;
         while let Some(c) = rest.next() {
             let c = c.to_array();
-            let (factor, spoke) = if exact::antipodal(values(apex.v), c) {
+            let (factor, spoke) = if !self.checked {
+                let c = Spoke::new(&apex, c);
+                let factor = triangle(&apex, &b, &c)?;
+                let im = factor.im.hi.get();
+                if !surely_unit(c.norm_error) || (im + before).abs() <= CONJUGATE * im.abs() {
+                    return None;
+                }
+                before = im;
+                (factor, c)
+            } else if exact::antipodal(values(apex.v), c) {
                 // The next vertex is neither this one nor the apex: the loop was checked and pruned.
                 let Some(next) = rest.next() else { break };
                 let next = next.to_array();
                 (lune(&apex, values(b.v), next), Spoke::new(&apex, next))
             } else {
                 let c = Spoke::new(&apex, c);
-                (triangle(&apex, &b, &c), c)
+                (triangle(&apex, &b, &c).unwrap_or_else(|| hard_triangle(&apex, &b, &c)), c)
             };
             sum.swept += slope(factor);
             sum.factors += 1;
@@ -119,7 +152,7 @@ impl Kernel for Loop<'_> {
             });
             b = spoke;
         }
-        let Some(Complex { re, mut im }) = product else { return Fan::default() };
+        let Some(Complex { re, mut im }) = product else { return Some(Fan::default()) };
         let (x, y) = (re.hi.get().abs(), im.hi.get().abs());
         if y <= NOISE * sum.swept * (x + y) {
             // From just above −π to π.
@@ -127,13 +160,15 @@ impl Kernel for Loop<'_> {
             im = Double::constant(0.0);
         }
         sum.half = argument(re, im);
-        sum
+        Some(sum)
     }
 }
 
 /// The vertex that all triangles share.
 struct Apex<T> {
     v: [T; 3],
+    /// |v|² − 1.
+    norm_error: T,
     /// |v| − 1.
     excess: T,
 }
@@ -142,6 +177,8 @@ struct Apex<T> {
 #[derive(Clone, Copy)]
 struct Spoke<T> {
     v: [T; 3],
+    /// |v|² − 1.
+    norm_error: T,
     /// |v| − 1.
     excess: T,
     /// v − apex.
@@ -166,7 +203,8 @@ impl<T: Real> Apex<T> {
     #[inline(always)]
     fn new(v: [f64; 3]) -> Self {
         let v = three(|i| T::constant(v[i]));
-        Self { v, excess: kernel::excess(v) }
+        let norm_error = kernel::norm_error(v);
+        Self { v, norm_error, excess: excess_of(norm_error) }
     }
 }
 
@@ -174,7 +212,9 @@ impl<T: Real> Spoke<T> {
     #[inline(always)]
     fn new(apex: &Apex<T>, v: [f64; 3]) -> Self {
         let v = three(|i| T::constant(v[i]));
-        Self { v, excess: kernel::excess(v), offset: kernel::offset(apex.v, v), cosine: dot(apex.v, v) }
+        let norm_error = kernel::norm_error(v);
+        let (offset, cosine) = (kernel::offset(apex.v, v), dot(apex.v, v));
+        Self { v, norm_error, excess: excess_of(norm_error), offset, cosine }
     }
 }
 
@@ -214,19 +254,40 @@ fn scaled<T: Real>(z: Complex<T>) -> Complex<T> {
     Complex { re: scaled(z.re), im: scaled(z.im) }
 }
 
-/// The factor of the triangle `apex b c`.
+/// Whether every rounding of the check accepts a vertex of this |v|² − 1.
 #[inline(always)]
-fn triangle<T: Real>(apex: &Apex<T>, b: &Spoke<T>, c: &Spoke<T>) -> Complex<T> {
-    let mut im = numerator(apex.v, &b.offset, &c.offset);
+pub(super) fn surely_unit<T: Real>(norm_error: T) -> bool {
+    norm_error.get().abs() <= UNIT_TOLERANCE * (1.0 - 1e-3)
+}
+
+/// The factor of the triangle `apex b c`; none where its numerator must be exact or an edge is nearly a half turn.
+#[inline(always)]
+fn triangle<T: Real>(apex: &Apex<T>, b: &Spoke<T>, c: &Spoke<T>) -> Option<Complex<T>> {
+    let im = numerator(apex.v, &b.offset, &c.offset);
+    let re = denominator([b.cosine, dot(b.v, c.v), c.cosine], [apex.excess, b.excess, c.excess]);
+    let hard = is_small(im, &b.offset, &c.offset) || re.hi.get().abs() + im.hi.get().abs() < FACTOR_FLOOR;
+    if hard { None } else { Some(Complex { re, im }) }
+}
+
+/// Whether a numerator is too small against the lengths of the two differences.
+#[inline(always)]
+fn is_small<T: Real>(im: Double<T>, p: &[Double<T>; 3], q: &[Double<T>; 3]) -> bool {
     let length = |p: &[Double<T>; 3]| {
         let [x, y, z] = three(|i| p[i].hi.get().abs());
         x.max(y).max(z)
     };
-    if im.hi.get().abs() <= NUMERATOR_FLOOR * length(&b.offset) * length(&c.offset) {
+    im.hi.get().abs() <= NUMERATOR_FLOOR * length(p) * length(q)
+}
+
+/// The factor of a triangle that `triangle` leaves.
+#[cold]
+#[inline(never)]
+fn hard_triangle<T: Real>(apex: &Apex<T>, b: &Spoke<T>, c: &Spoke<T>) -> Complex<T> {
+    let mut im = numerator(apex.v, &b.offset, &c.offset);
+    if is_small(im, &b.offset, &c.offset) {
         im = exact::determinant(values(apex.v), values(b.v), values(c.v)).cast();
     }
-    let cosines = [b.cosine, dot(b.v, c.v), c.cosine];
-    let re = denominator(cosines, [apex.excess, b.excess, c.excess]);
+    let re = denominator([b.cosine, dot(b.v, c.v), c.cosine], [apex.excess, b.excess, c.excess]);
     if re.hi.get().abs() + im.hi.get().abs() < FACTOR_FLOOR {
         let Complex { re, im } = near_antipodal(values(apex.v), values(b.v), values(c.v), im.cast());
         return Complex { re: re.cast(), im: im.cast() };
@@ -286,10 +347,10 @@ mod tests {
         double::{Number, Real},
         triangle::Triangle,
     };
-    #[cfg(target_arch = "x86_64")]
-    #[cfg(target_arch = "x86_64")]
-    use super::Loop;
     use super::{Fan, excess, fan};
+    #[cfg(target_arch = "x86_64")]
+    #[cfg(target_arch = "x86_64")]
+    use super::{Loop, unchecked};
 
     /// The sum over the fan, not reduced.
     fn total(fan: &Fan) -> f64 {
@@ -328,6 +389,11 @@ mod tests {
         let twice = fan(&equator.repeat(2));
         assert_eq!((twice.half.value(), twice.turns), (0.0, 1), "{twice:?}");
         assert_eq!(fan(&equator).half.value(), PI);
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    fn checked(vertices: &[DVec3]) -> Loop<'_> {
+        Loop { vertices, checked: true }
     }
 
     /// Loops of every kind that the kernel tells apart, from a linear congruence.
@@ -381,9 +447,11 @@ mod tests {
     #[test]
     fn both_copies_give_the_same_bits() {
         for vertices in loops() {
-            let (split, fused) = (Loop(&vertices).run::<f64>(), Loop(&vertices).run::<Fused>());
+            let (split, fused) = (checked(&vertices).run::<f64>(), checked(&vertices).run::<Fused>());
             assert_eq!(format!("{split:?}"), format!("{fused:?}"), "{vertices:?}");
-            assert_eq!(format!("{split:?}"), format!("{:?}", fan(&vertices)), "{vertices:?}");
+            assert_eq!(format!("{split:?}"), format!("{:?}", Some(fan(&vertices))), "{vertices:?}");
+            // Who gives up gives nothing, and who does not gives the same.
+            assert!(unchecked(&vertices).is_none_or(|quick| format!("{:?}", Some(quick)) == format!("{split:?}")));
             let [a, b, c] = &vertices[..] else { continue };
             if has_registers() {
                 let (split, fused) = (Triangle(a, b, c).run::<f64>(), Triangle(a, b, c).run::<Fused>());

@@ -251,7 +251,10 @@ pub fn vector_moment(vertices: &[DVec3]) -> Result<DVec3, SolidAngleError> {
 /// The signed solid angle of the loop, in (−2π, 2π].
 #[inline(always)]
 fn angle(vertices: &[DVec3]) -> Result<Double, SolidAngleError> {
-    let quick = if let [a, b, c] = vertices { triangle::angle(a, b, c) } else { None };
+    let quick = match vertices {
+        [a, b, c] => triangle::angle(a, b, c),
+        _ => fan::unchecked(vertices).map(|fan| fan.angle()),
+    };
     quick.map_or_else(|| careful_angle(vertices), Ok)
 }
 

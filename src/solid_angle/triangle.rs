@@ -9,14 +9,10 @@
 use glam::DVec3;
 
 use super::argument::argument;
-use super::check::UNIT_TOLERANCE;
 use super::dispatch::{self, Kernel};
 use super::double::{Double, Four, Number, Real, dot, three};
-use super::fan::{FACTOR_FLOOR, NUMERATOR_FLOOR};
+use super::fan::{FACTOR_FLOOR, NUMERATOR_FLOOR, surely_unit};
 use super::kernel::{denominator, excess_of, minor, norm_error, volume};
-
-/// Norms up to here are accepted by every rounding of the check.
-const SURELY_UNIT: f64 = UNIT_TOLERANCE * (1.0 - 1e-3);
 
 /// Signed solid angle of the triangle `a b c`, in (−2π, 2π]; none where it takes a closer look.
 #[inline]
@@ -36,7 +32,7 @@ impl Kernel for Triangle<'_> {
         let vertices = T::Four::columns([a, b, c]);
         let errors = norm_error(vertices);
         let [ea, eb, ec, _] = errors.get();
-        if !(ea.get().abs() <= SURELY_UNIT && eb.get().abs() <= SURELY_UNIT && ec.get().abs() <= SURELY_UNIT) {
+        if !(surely_unit(ea) && surely_unit(eb) && surely_unit(ec)) {
             return None;
         }
         let cosines = parts::<T>(dot(vertices, three(|i| vertices[i].turned())));
