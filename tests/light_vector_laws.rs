@@ -6,10 +6,7 @@ mod seeds;
 
 use std::f64::consts::PI;
 
-use bounds::ilv::{
-    AREA_BIAS, CONSTANT_FIELD, HALF_FIELD, HORIZON, IDENTITY, MOMENT_BIAS, STANDARD_ERROR_RATIO, STANDARD_ERROR_SLACK,
-    Z_CRITICAL,
-};
+use bounds::ilv::{AREA_BIAS, CONSTANT_FIELD, HALF_FIELD, HORIZON, IDENTITY, MOMENT_BIAS, Z_CRITICAL};
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -38,8 +35,6 @@ fn samplers() -> Vec<(&'static str, AdaptiveSampler)> {
         ("default", AdaptiveSampler::default()),
         ("default, projected cells", AdaptiveSampler::default().map(CellMap::ProjectedSolidAngle)),
         ("unbiased", AdaptiveSampler::unbiased()),
-        ("spiral 97", AdaptiveSampler::spiral(97).unwrap()),
-        ("spiral 2", AdaptiveSampler::spiral(2).unwrap()),
         ("sequential", AdaptiveSampler::sequential()),
         ("paper", AdaptiveSampler::paper()),
         ("paper, fresh batches", AdaptiveSampler::paper().refinement(Some(fresh)).unwrap()),
@@ -50,13 +45,18 @@ fn samplers() -> Vec<(&'static str, AdaptiveSampler)> {
     ]
 }
 
-const WEIGHTS: [Weights; 4] =
-    [Weights::LeafMeasure, Weights::VoronoiArea, Weights::VoronoiMoment, Weights::MeasureAndVoronoi];
+const WEIGHTS: [Weights; 5] = [
+    Weights::LeafMeasure,
+    Weights::CellMoment,
+    Weights::VoronoiArea,
+    Weights::VoronoiMoment,
+    Weights::MeasureAndVoronoi,
+];
 
 /// Presets that look, and the rays of their first look.
 const PRESETS: [(fn() -> AdaptiveSampler, usize); 4] = [
-    (AdaptiveSampler::default, 80),
-    (AdaptiveSampler::unbiased, 104),
+    (AdaptiveSampler::default, 108),
+    (AdaptiveSampler::unbiased, 132),
     (AdaptiveSampler::sequential, 120),
     (AdaptiveSampler::paper, 120),
 ];
@@ -83,18 +83,23 @@ proptest! {
     #![proptest_config(seeds::config(24))]
 
     #[test]
-    fn voronoi_moments_make_the_constant_field_exact(n in normal(), seed: u64) {
+    fn moments_make_the_constant_field_exact(n in normal(), seed: u64) {
         let radiance = DVec3::new(0.3, 2.0, 7.0);
         for (name, sampler) in samplers() {
-            let sampler = sampler.weights(Weights::VoronoiMoment);
-            let gather = gather(&sampler, n, |_| Sample { radiance, distance: 3.0 }, seed);
-            let vector = gather.vector();
-            let worst = ((vector.irradiance() - radiance * PI) / (radiance * PI)).abs().max_element();
-            let want = n * (luminance(radiance) * PI);
-            let off = (vector.vector_irradiance() - want).length() / want.length();
-            prop_assert!(worst.max(off) <= CONSTANT_FIELD, "{name}: {worst:e}, {off:e}, bound {CONSTANT_FIELD:e}");
-            prop_assert!((vector.mean_distance() - 3.0).abs() < 3.0 * CONSTANT_FIELD);
-            prop_assert!(vector.standard_error() <= CONSTANT_FIELD * PI * luminance(radiance), "{name}");
+            for weights in [Weights::VoronoiMoment, Weights::CellMoment] {
+                let gather = gather(&sampler.weights(weights), n, |_| Sample { radiance, distance: 3.0 }, seed);
+                let vector = gather.vector();
+                let worst = ((vector.irradiance() - radiance * PI) / (radiance * PI)).abs().max_element();
+                let want = n * (luminance(radiance) * PI);
+                let off = (vector.vector_irradiance() - want).length() / want.length();
+                let bound = CONSTANT_FIELD;
+                prop_assert!(worst.max(off) <= bound, "{name}, {weights:?}: {worst:e}, {off:e}, bound {bound:e}");
+                prop_assert!((vector.mean_distance() - 3.0).abs() < 3.0 * bound);
+                prop_assert!(vector.standard_error() <= bound * PI * luminance(radiance), "{name}, {weights:?}");
+                for gradient in vector.translation_gradient() {
+                    prop_assert_eq!(gradient, DVec3::ZERO);
+                }
+            }
         }
     }
 
@@ -114,9 +119,12 @@ proptest! {
     #[test]
     fn rays_stand_for_the_whole_hemisphere_and_lie_in_it(n in normal(), seed: u64) {
         for (name, sampler) in samplers() {
-            let gather = gather(&sampler.weights(Weights::VoronoiMoment), n, sky, seed);
-            let total: DVec3 = gather.rays().iter().map(|ray| ray.moment()).sum();
-            prop_assert!((total - n * PI).length() <= CONSTANT_FIELD * PI, "{name}: {total}");
+            for weights in [Weights::VoronoiMoment, Weights::CellMoment] {
+                let gather = gather(&sampler.weights(weights), n, sky, seed);
+                let total: DVec3 = gather.rays().iter().map(|ray| ray.moment()).sum();
+                prop_assert!((total - n * PI).length() <= CONSTANT_FIELD * PI, "{name}, {weights:?}: {total}");
+            }
+            let gather = gather(&sampler, n, sky, seed);
             prop_assert!(gather.rays().iter().all(|ray| ray.direction().dot(n) > -HORIZON), "{name}");
             let areas: f64 = gather.cells().iter().map(|cell| cell.projected_solid_angle()).sum();
             prop_assert!((areas - PI).abs() <= CONSTANT_FIELD * PI, "{name}: {areas}");
@@ -234,35 +242,6 @@ fn samplers_that_do_not_look_are_unbiased() {
 }
 
 #[test]
-fn the_standard_error_is_the_scatter_of_gathers_or_as_much_more_as_was_measured() {
-    for (name, sampler) in [
-        ("independent", independent(64).weights(Weights::LeafMeasure)),
-        ("fixed 8 x 8", AdaptiveSampler::fixed(8, 8).unwrap()),
-        ("fixed 1 x 64", AdaptiveSampler::fixed(1, 64).unwrap()),
-        ("stratified 208", AdaptiveSampler::stratified(208).unwrap()),
-        ("lattice 208", AdaptiveSampler::lattice(208).unwrap()),
-        ("paper", AdaptiveSampler::paper()),
-        ("spiral 208", AdaptiveSampler::spiral(208).unwrap()),
-        ("sequential", AdaptiveSampler::sequential()),
-        ("default", AdaptiveSampler::default()),
-        ("unbiased", AdaptiveSampler::unbiased()),
-    ] {
-        let (mut squares, mut values) = (Vec::new(), Vec::new());
-        for seed in 0..u64::from(seeds::cases(1000)) {
-            let vector = *gather(&sampler, DVec3::Z, sky, seeds::seed() ^ seed).vector();
-            squares.push(vector.standard_error() * vector.standard_error());
-            values.push(vector.luminance());
-        }
-        let ratio = (squares.iter().mean() / values.iter().variance()).sqrt();
-        let (_, expected) = STANDARD_ERROR_RATIO.iter().find(|row| row.0 == name).expect("every sampler has a row");
-        let off = (ratio / expected - 1.0).abs();
-        assert!(off <= STANDARD_ERROR_SLACK, "{name}: {ratio}, expected {expected}");
-    }
-    let alone = gather(&AdaptiveSampler::stratified(1).unwrap(), DVec3::Z, sky, 1);
-    assert_eq!(alone.vector().standard_error(), f64::INFINITY);
-}
-
-#[test]
 fn a_ray_that_meets_nothing_counts_as_infinitely_far() {
     // A wall at distance 2 fills half of every ring: the harmonic mean is 4.
     let half = |direction: DVec3| Sample {
@@ -320,8 +299,8 @@ fn bad_answers_of_a_source_are_typed_errors() {
             .map(|gather| gather.rays().len())
     };
     let one = DVec3::ONE;
-    assert_eq!(attempt(one, f64::INFINITY, one), Ok(80));
-    assert_eq!(attempt(one, 0.0, one), Ok(80));
+    assert_eq!(attempt(one, f64::INFINITY, one), Ok(108));
+    assert_eq!(attempt(one, 0.0, one), Ok(108));
     for bad in [DVec3::new(f64::NAN, 1.0, 1.0), DVec3::new(1.0, -1e-300, 1.0), DVec3::splat(f64::INFINITY)] {
         assert!(matches!(attempt(bad, 1.0, one), Err(GatherError::Radiance { .. })), "{bad}");
         assert!(matches!(attempt(one, 1.0, bad), Err(GatherError::Reflectance { .. })), "{bad}");
@@ -329,7 +308,7 @@ fn bad_answers_of_a_source_are_typed_errors() {
     for bad in [f64::NAN, -1e-300, -1.0, f64::NEG_INFINITY] {
         assert!(matches!(attempt(one, bad, one), Err(GatherError::Distance { .. })), "{bad}");
     }
-    assert_eq!(attempt(DVec3::splat(Gather::BRIGHTEST), 1.0, DVec3::splat(Gather::BRIGHTEST)), Ok(80));
+    assert_eq!(attempt(DVec3::splat(Gather::BRIGHTEST), 1.0, DVec3::splat(Gather::BRIGHTEST)), Ok(108));
     for bad in [f64::MAX, Gather::BRIGHTEST * 1.001] {
         assert!(matches!(attempt(DVec3::splat(bad), 1.0, one), Err(GatherError::Radiance { .. })), "{bad}");
     }

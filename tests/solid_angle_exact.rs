@@ -21,7 +21,7 @@ use polygons::{Class, HEXAGONS, THOUSANDS, TRIANGLES, direction};
 use rand::RngExt;
 use spherical::{Vector, directions};
 use steradian::glam::DVec3;
-use steradian::solid_angle::{self, SolidAngleError};
+use steradian::solid_angle::{self, MOMENT_BOUND, MOMENT_FLOOR, SolidAngleError};
 
 /// Worst error of a function on a class, and where it is.
 #[derive(Default)]
@@ -77,13 +77,14 @@ fn solid_angles(classes: &[Class], count: u32) {
     failures.assert_none();
 }
 
-/// Largest component of the error, in units of 2⁻⁵³ of the moment's largest component and 2⁻¹⁰⁶ of the loop's diameter.
+/// Largest component of the error, in units of 2⁻⁵³ of the moment's largest component and of the floor that belongs to
+/// `MOMENT_BOUND` of them.
 fn moment_error(vertices: &[DVec3], got: DVec3, want: &Vector) -> f64 {
     let largest = |v: [f64; 3]| v.into_iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     let error = largest([0, 1, 2].map(|i| (&Fixed::from(got[i]) - &want[i]).value()));
-    let diameter = vertices.iter().map(|v| v.distance(vertices[0])).fold(0.0, f64::max);
+    let square = vertices.iter().map(|v| v.distance_squared(vertices[0])).fold(0.0, f64::max);
     let unit = 0.5 * f64::EPSILON;
-    error / (unit * (largest([0, 1, 2].map(|i| want[i].value())) + unit * diameter))
+    error / (unit * largest([0, 1, 2].map(|i| want[i].value())) + MOMENT_FLOOR / MOMENT_BOUND * square)
 }
 
 fn moments(classes: &[Class], count: u32, failures: &mut Failures) {

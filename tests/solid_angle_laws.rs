@@ -12,7 +12,8 @@ use rand::RngExt;
 use rand_pcg::Pcg64;
 use steradian::glam::DVec3;
 use steradian::solid_angle::{
-    SolidAngleError, UNIT_TOLERANCE, polygon, seen_from, signed_polygon, triangle, vector_moment, winding,
+    SolidAngleError, UNIT_TOLERANCE, geographic_polygon, polygon, seen_from, signed_polygon, signed_polygon_bounded,
+    triangle, vector_moment, winding,
 };
 
 /// A direction, uniform enough.
@@ -101,6 +102,24 @@ fn rng(stream: u64) -> Pcg64 {
     seeds::rng(stream)
 }
 
+/// A rotation of the list changes nothing, a reversal the sign, and two parts are the whole.
+fn check_loop<V: Copy + std::fmt::Debug>(vertices: &[V], measure: impl Fn(&[V]) -> f64) -> Result<(), TestCaseError> {
+    let whole = measure(vertices);
+    let (any, sum) = (bound("signed_polygon", "law: any"), bound("signed_polygon", "law: sum"));
+    let mut turned = vertices.to_vec();
+    turned.rotate_left(vertices.len() / 2);
+    let error = (measure(&turned) - whole).abs() / ulp(whole);
+    prop_assert!(error <= any, "{vertices:?}: {error} ulp after a rotation");
+    turned.reverse();
+    let error = (measure(&turned) + whole).abs() / ulp(whole);
+    prop_assert!(error <= any, "{vertices:?}: {error} ulp after a reversal");
+    let cut = vertices.len() / 2;
+    let (p, q) = (measure(&vertices[..=cut]), measure(&[&vertices[cut..], &vertices[..1]].concat()));
+    let error = (same_turn(p + q, whole) - whole).abs() / ulp(p.abs().max(q.abs()).max(whole.abs()));
+    prop_assert!(error <= sum, "{vertices:?}: {p} + {q} against {whole}");
+    Ok(())
+}
+
 proptest! {
     #![proptest_config(seeds::config(2000))]
 
@@ -183,6 +202,42 @@ proptest! {
             let error = (got.0 - sign * image(want.0)).length() / scale;
             prop_assert!(error <= bound("vector_moment", "law: any"), "{:?}: {:?} against {:?}", images, got.0, want.0);
         }
+    }
+
+    #[test]
+    fn rings_and_places_start_anywhere_turn_round_and_add_up(stream: u64) {
+        let mut rng = rng(stream);
+        let n = rng.random_range(4..10);
+        let eye = direction(&mut rng);
+        let ring: Vec<_> = (0..n).map(|_| 2.0 * direction(&mut rng)).collect();
+        let places: Vec<_> =
+            (0..n).map(|_| [rng.random_range(-180.0..180.0), rng.random_range(-90.0..90.0)]).collect();
+        let seen = |ring: &[DVec3]| seen_from(eye, ring).unwrap();
+        check_loop(&ring, seen)?;
+        check_loop(&ring.iter().map(|v| v.normalize()).collect::<Vec<_>>(), |v| signed_polygon_bounded(v).unwrap().value)?;
+        let place = |places: &[[f64; 2]]| geographic_polygon(places).unwrap();
+        let back: Vec<_> = places.iter().rev().copied().collect();
+        let turned = [&places[1..], &places[..1]].concat();
+        let (p, q) = (place(&places[..=2]), place(&[&places[2..], &places[..1]].concat()));
+        let whole = place(&places);
+        // In units of the last place of 4π.
+        let errors = [whole - place(&turned), whole + place(&back) - 2.0 * TAU, same_turn(p + q, whole) - whole];
+        for error in errors.map(|error| error.abs() / ulp(2.0 * TAU)) {
+            prop_assert!(error <= bound("polygon", "law: any"), "{places:?}: {errors:?}");
+        }
+    }
+
+    #[test]
+    fn bounded_parts_add_up_within_their_bounds(stream: u64) {
+        let mut vertices = any_loop(&mut rng(stream));
+        vertices.push(direction(&mut rng(!stream)));
+        let cut = vertices.len() / 2;
+        let part = |v: &[DVec3]| signed_polygon_bounded(v).unwrap();
+        let (p, q) = (part(&vertices[..=cut]), part(&[&vertices[cut..], &vertices[..1]].concat()));
+        let whole = part(&vertices);
+        let apart = (same_turn(p.value + q.value, whole.value) - whole.value).abs();
+        let rounding = bound("signed_polygon", "law: any") * ulp(2.0 * TAU);
+        prop_assert!(apart <= p.error + q.error + whole.error + rounding, "{vertices:?}: {p:?} + {q:?} against {whole:?}");
     }
 
     #[test]
@@ -392,6 +447,7 @@ fn every_public_function_is_compared_with_exact_values_or_with_one_that_is() {
         include_str!("solid_angle_forms.rs"),
         include_str!("solid_angle_oracle.rs"),
         include_str!("solid_angle_formulas.rs"),
+        include_str!("solid_angle_projected.rs"),
     ]
     .concat();
     let names = public_functions();

@@ -93,13 +93,16 @@ impl Tally {
     }
 }
 
-/// Largest component of the error of a vector, in units of 2⁻⁵³ of the vector's largest component; 2⁻¹⁰⁶ for the zero vector.
-fn vector_error(got: DVec3, want: &[String; 3]) -> f64 {
+/// Largest component of the error of a moment, in units of 2⁻⁵³ of the moment's largest component and of the floor that
+/// belongs to `MOMENT_BOUND` of them.
+fn moment_error(vertices: &[DVec3], got: DVec3, want: &[String; 3]) -> f64 {
     let nearest = DVec3::from_array([0, 1, 2].map(|i| want[i].parse().expect("a decimal")));
     let error = DVec3::from_array([0, 1, 2].map(|i| difference(got[i], &want[i])));
-    let (error, length) = (error.abs().max_element(), nearest.abs().max_element());
-    let unit = 0.5 * f64::EPSILON;
-    error / (unit * if length > 0.0 { length } else { unit })
+    let square = vertices.iter().map(|v| v.distance_squared(vertices[0])).fold(0.0, f64::max);
+    let floor = solid_angle::MOMENT_FLOOR / solid_angle::MOMENT_BOUND * square;
+    let unit = 0.5 * f64::EPSILON * nearest.abs().max_element() + floor;
+    // Nothing at all, of three vertices at one place.
+    if error == DVec3::ZERO { 0.0 } else { error.abs().max_element() / unit }
 }
 
 #[test]
@@ -115,11 +118,10 @@ fn every_moment_is_within_its_bound() {
     let mut moments = more().moments;
     for polygon in oracle() {
         if let Some(want) = moments.remove(&polygon.id) {
-            let got = solid_angle::vector_moment(&polygon.vertices()).expect(&polygon.id);
+            let vertices = polygon.vertices();
+            let got = solid_angle::vector_moment(&vertices).expect(&polygon.id);
             let detail = format!("got {got:?}, want {want:?}");
-            let nothing = want.iter().all(|x| x == "0");
-            let function = if nothing { "vector_moment of nothing" } else { "vector_moment" };
-            tally.note(function, &polygon.cls, &polygon.id, vector_error(got, &want), detail);
+            tally.note("vector_moment", &polygon.cls, &polygon.id, moment_error(&vertices, got, &want), detail);
         }
     }
     assert!(moments.is_empty(), "moments of unknown polygons: {:?}", moments.keys());
@@ -136,7 +138,7 @@ fn more_polygons_are_within_their_bounds() {
         tally.note("signed_polygon", &polygon.cls, id, ulps(got, want), format!("got {got:e}, want {want}"));
         let (got, want) = (solid_angle::vector_moment(&vertices).expect(id), &polygon.moment);
         let detail = format!("got {got:?}, want {want:?}");
-        tally.note("vector_moment", &polygon.cls, id, vector_error(got, want), detail);
+        tally.note("vector_moment", &polygon.cls, id, moment_error(&vertices, got, want), detail);
     }
     tally.settle();
 }

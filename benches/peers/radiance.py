@@ -4,6 +4,8 @@
     cargo run --release --example light_vectors -- --sweep --size 600
     python benches/peers/radiance.py --size 600
 
+The sweep runs it by itself in turns with the methods when it is given --radiance and a Python that has both.
+
 Writes each scene as .rad, sends the ray of every pixel through rtrace with one ambient bounce and, for the direct light, with
 none; the difference is the indirect light. Error: RMSE of its luminance over the mean, against the two halves of the
 reference that the example keeps in target/light_vectors/references. Time: user and system seconds of the rtrace with the
@@ -45,6 +47,9 @@ def rad(scene):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--size", type=int, default=600)
+    parser.add_argument("--rays", type=int, default=1024, help="rays per pixel of the reference")
+    parser.add_argument("--scene", nargs="+", choices=list(SETTINGS), default=list(SETTINGS))
+    parser.add_argument("--points", action="store_true", help="print 'CPU seconds,RMSE over mean' only")
     parser.add_argument("--references", type=pathlib.Path, default=pathlib.Path("target/light_vectors/references"))
     options = parser.parse_args()
     try:
@@ -56,13 +61,14 @@ def main():
     home = pathlib.Path(pyradiance.__file__).parent
     environment = {**os.environ, "RAYPATH": f".:{home / 'lib'}", "PATH": f"{home / 'bin'}:{os.environ['PATH']}"}
     size, weights = options.size, np.array([0.2126, 0.7152, 0.0722])
-    for name, settings in SETTINGS.items():
+    for name in options.scene:
+        settings = SETTINGS[name]
         scene = corridor(mirrored=True) if name == "corridor" else SCENES[name]()
-        kept = sorted(options.references.glob(f"reference_{name}_{size}_*[0-9].csv"))
-        if not kept:
+        kept = options.references / f"reference_{name}_{size}_{options.rays}.csv"
+        if not kept.exists():
             print(f"skipped {name}: no reference of {size} x {size} in {options.references}; run the example first")
             continue
-        table = np.loadtxt(kept[-1], delimiter=",")
+        table = np.loadtxt(kept, delimiter=",")
         halves = table[:, :3] @ weights, table[:, 3:] @ weights
         centres = [(x + 0.5, y + 0.5) for y in range(size) for x in range(size)]
         sent = np.array([[*origin, *direction] for origin, direction in rays(scene, size, centres)], dtype=np.float32)
@@ -95,11 +101,16 @@ def main():
                 mean = 0.5 * np.mean(a + b)
                 rmse, bias = math.sqrt(max(square, 0.0)) / mean, np.mean(indirect[lit] - 0.5 * (a + b)) / mean
                 curve.append((seconds - without, rmse))
+                if options.points:
+                    print(f"{seconds - without},{rmse}", flush=True)
+                    continue
                 print(
                     f"{name:9} aa {accuracy} ar {resolution:2} ad {divisions:4} as {supersamples:2}"
                     f"  {seconds - without:6.2f} CPU s  RMSE/mean {100 * rmse:5.2f} %  bias {100 * bias:+.2f} %",
                     flush=True,
                 )
+            if options.points:
+                continue
             good = sorted(curve)
             for (t0, e0), (t1, e1) in zip(good, good[1:]):
                 if e0 >= 0.07 > e1:

@@ -14,11 +14,12 @@ use crate::tracer::{Scene, SceneSource};
 
 /// Fields of which the first are scenes.
 pub const SCENES: usize = 3;
-const LIGHT_GRID: usize = 2;
+/// Points along a side of the lamp.
+pub const LIGHT_GRID: usize = 2;
 /// Seed of the view points: not the one of the tuning.
 const HELD_OUT: u64 = 31_337;
-/// Rings of the reference, which has three times as many sectors.
-const REFERENCE_RINGS: u32 = 220;
+/// Rings of the reference, which has three times as many sectors, and of a quick one.
+const REFERENCE_RINGS: [u32; 2] = [220, 40];
 
 /// One hemisphere and what is exact of it.
 pub struct Point {
@@ -44,9 +45,9 @@ pub struct Field {
 
 impl Field {
     /// The three scenes at random visible points, and the closed forms.
-    pub fn all(points: u32) -> Vec<Self> {
+    pub fn all(points: u32, quick: bool) -> Vec<Self> {
         let scenes =
-            [Scene::cornell(), Scene::cornell_closed(), Scene::corridor()].map(|scene| of_scene(scene, points));
+            [Scene::cornell(), Scene::cornell_closed(), Scene::corridor()].map(|scene| of_scene(scene, points, quick));
         scenes.into_iter().chain(closed_forms()).collect()
     }
 
@@ -65,7 +66,7 @@ impl Field {
     }
 }
 
-fn of_scene(scene: Scene, count: u32) -> Field {
+fn of_scene(scene: Scene, count: u32, quick: bool) -> Field {
     let mut rng = Pcg64::seed_from_u64(HELD_OUT);
     let mut places = Vec::new();
     while places.len() < count as usize {
@@ -76,15 +77,16 @@ fn of_scene(scene: Scene, count: u32) -> Field {
             _ => {}
         }
     }
-    let points = places.into_par_iter().map(|(position, normal)| reference(&scene, position, normal)).collect();
+    let points = places.into_par_iter().map(|(position, normal)| reference(&scene, position, normal, quick)).collect();
     Field { name: scene.name, light: Light::Scene(Box::new(scene)), points }
 }
 
 /// By the middles of a grid of cells of equal projected solid angle, its rings turned against each other.
-fn reference(scene: &Scene, position: DVec3, normal: DVec3) -> Point {
+pub fn reference(scene: &Scene, position: DVec3, normal: DVec3, quick: bool) -> Point {
     let mut source = SceneSource::new(scene, position, LIGHT_GRID);
     let (across, along) = normal.any_orthonormal_pair();
-    let (rings, sectors) = (REFERENCE_RINGS, 3 * REFERENCE_RINGS);
+    let rings = REFERENCE_RINGS[usize::from(quick)];
+    let sectors = 3 * rings;
     let (mut irradiance, mut vector_irradiance) = (0.0, DVec3::ZERO);
     for ring in 0..rings {
         let u = (f64::from(ring) + 0.5) / f64::from(rings);

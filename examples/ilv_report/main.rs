@@ -1,29 +1,33 @@
-//! What a light vector costs and how wrong it is, method by method.
+//! What a light vector costs and how wrong it is, method by method, and what the method of the paper gives.
 //!
-//! Prints the tables of `docs/ilv.md` in Markdown and writes its figures: on hemispheres of the three scenes and on fields
-//! with closed forms, the root mean square error of irradiance and direction at several numbers of rays, the CPU time of
-//! a gather, and the share of the Voronoi step. The view points are not those on which the sampler was tuned. Times need
-//! `--release`; they are of one thread, tracing included.
+//! Writes the tables of `docs/ilv.md` with their figures: on hemispheres of the three scenes and on fields with closed forms,
+//! the root mean square error of irradiance and direction at several numbers of rays, the CPU time of a gather, the shares of
+//! rays and Voronoi step, translation gradients. With `--paper`, the tables of `docs/paper.md`. The view points are not those on
+//! which the sampler was tuned. Times need `--release`; they are of one thread, tracing included.
 
-use std::{error::Error, fs, io::Write, path::PathBuf};
+use std::{error::Error, fs, path::PathBuf};
 
 use clap::Parser;
 
 mod field;
+mod gradient;
+mod hemispheres;
 mod method;
+mod page;
+mod paper;
 mod picture;
+mod sensitivity;
+mod shadow;
+mod shares;
 mod trial;
-mod voronoi_share;
 
 #[allow(dead_code, unused_imports, reason = "uses a part of the tracer")]
 #[path = "../../tests/tracer/mod.rs"]
 mod tracer;
 
 use field::Field;
-use method::METHODS;
-use trial::Trial;
 
-/// Tables and figures of `docs/ilv.md`.
+/// Tables and figures of `docs/ilv.md` and `docs/paper.md`.
 #[derive(Parser)]
 struct Options {
     /// View points in each scene
@@ -32,41 +36,35 @@ struct Options {
     /// Gathers at each view point and in each field
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
     gathers: u32,
-    /// Folder of the figures
-    #[arg(long, default_value = "target/ilv_report")]
-    out: PathBuf,
+    /// Write docs/paper.md instead of docs/ilv.md
+    #[arg(long)]
+    paper: bool,
+    /// A few points and pixels of everything, for a test of the program
+    #[arg(long)]
+    quick: bool,
+    /// Folder of the pages; the figures go into a folder of it
+    #[arg(long, default_value = "docs")]
+    docs: PathBuf,
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let options = Options::parse();
-    let mut out = std::io::stdout();
-    fs::create_dir_all(&options.out)?;
-    let fields = Field::all(options.points);
-    for (index, field) in fields.iter().enumerate() {
-        writeln!(out, "### {}\n", field.name)?;
-        writeln!(
-            out,
-            "| method | rays | µs | RMSE | bias | error stated | direction | RMSE / cosine | direction / cosine |"
-        )?;
-        writeln!(out, "|---|---|---|---|---|---|---|---|---|")?;
-        let mut curves = Vec::new();
-        for method in METHODS {
-            let mut curve = Vec::new();
-            for sampler in (method.samplers)()? {
-                let trial = Trial::run(field, &sampler, options.gathers)?;
-                // Cosine stratification with as many rays, each direction weighed by its own ray.
-                let cosine = Trial::run_cosine(field, trial.rays, options.gathers)?;
-                writeln!(out, "| {} | {} |", method.name, trial.row(&cosine))?;
-                curve.push(trial);
-            }
-            curves.push((method, curve));
-        }
-        writeln!(out)?;
-        let name = field.name.replace(' ', "_");
-        if index < field::SCENES {
-            let svg = picture::svg(field.name, &curves).map_err(|error| format!("{name}: {error}"))?;
-            fs::write(options.out.join(format!("ilv_{name}.svg")), svg)?;
-        }
+    let mut options = Options::parse();
+    let figures = options.docs.join("figures");
+    fs::create_dir_all(&figures)?;
+    if options.paper {
+        let text = format!("{}{}", paper::section(options.quick)?, sensitivity::section(options.quick)?);
+        print!("{text}");
+        return page::replace_section(&options.docs.join("paper.md"), "rays", "ilv_report", &text);
     }
-    voronoi_share::print(&mut out, &fields[..field::SCENES])
+    if options.quick {
+        (options.points, options.gathers) = (3, 1);
+    }
+    let fields = Field::all(options.points, options.quick);
+    let scenes = &fields[..field::SCENES];
+    let mut text = hemispheres::section(&fields, options.gathers, &figures)?;
+    text += &shares::section(scenes)?;
+    text += &gradient::section(scenes, options.quick)?;
+    text += &shadow::section(options.quick)?;
+    print!("{text}");
+    page::replace_section(&options.docs.join("ilv.md"), "tables", "ilv_report", &text)
 }

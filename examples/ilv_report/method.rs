@@ -24,7 +24,7 @@ fn piloted(sampler: AdaptiveSampler) -> Result<Vec<AdaptiveSampler>, Box<dyn Err
 }
 
 /// Every method of the report.
-pub const METHODS: [Method; 8] = [
+pub const METHODS: [Method; 7] = [
     Method {
         name: "stratified",
         colour: RGBColor(20, 20, 20),
@@ -45,11 +45,6 @@ pub const METHODS: [Method; 8] = [
     },
     Method { name: "paper", colour: RGBColor(213, 94, 0), samplers: || Ok(vec![AdaptiveSampler::paper()]) },
     Method { name: "sequential", colour: RGBColor(204, 40, 120), samplers: || Ok(vec![AdaptiveSampler::sequential()]) },
-    Method {
-        name: "spiral",
-        colour: RGBColor(0, 158, 115),
-        samplers: || Ok(RAYS.iter().map(|&rays| AdaptiveSampler::spiral(rays)).collect::<Result<_, _>>()?),
-    },
     Method { name: "unbiased", colour: RGBColor(86, 180, 233), samplers: || piloted(AdaptiveSampler::unbiased()) },
     Method { name: "default", colour: RGBColor(0, 114, 178), samplers: || piloted(AdaptiveSampler::default()) },
 ];

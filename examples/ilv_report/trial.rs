@@ -42,6 +42,17 @@ impl Trial {
         })
     }
 
+    /// The same in short: rays, ratios to cosine stratification, and the error stated over the error.
+    pub fn summary(&self, cosine: &Self) -> String {
+        format!(
+            "{:.0}: {:.2}, {:.2}, {:.2}",
+            self.rays,
+            self.rmse / cosine.rmse,
+            self.direction / cosine.direction,
+            self.stated / self.rmse
+        )
+    }
+
     /// The cells of a row of the table.
     pub fn row(&self, cosine: &Self) -> String {
         let ratio = |a: f64, b: f64| if a < 1e-9 || b < 1e-9 { "–".to_owned() } else { format!("{:.2}", a / b) };

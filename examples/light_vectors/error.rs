@@ -23,6 +23,8 @@ pub enum JobError {
     Refinement(RefinementError),
     /// A plot could not be drawn.
     Plot(String),
+    /// The page of the documentation could not be written.
+    Page(String),
     /// The cache rule was refused.
     Validity(ValidityError),
     /// A gather failed.
@@ -39,6 +41,7 @@ impl fmt::Display for JobError {
             Self::Threads(error) => write!(f, "cannot start the threads: {error}"),
             Self::Sampler(error) => write!(f, "{error}"),
             Self::Refinement(error) => write!(f, "{error}"),
+            Self::Page(error) => write!(f, "cannot write the page: {error}"),
             Self::Plot(error) => write!(f, "cannot draw the curves: {error}"),
             Self::Validity(error) => write!(f, "{error}"),
             Self::Gather(error) => write!(f, "{error}"),

@@ -2,7 +2,8 @@
 //!
 //! Renders each scene by each method, prints one table per scene, and writes pictures, error maps, maps of the stated standard
 //! error, one contact sheet per scene and the table as CSV into the folder that `--out` names. With `--sweep` it draws the
-//! error against CPU time and against rays instead. See `--help`. The same seed gives the same pictures on
+//! error against CPU time and against rays instead, Radiance included where `--radiance` names a Python that has it, and writes
+//! the tables into the folder that `--docs` names. See `--help`. The same seed gives the same pictures on
 //! any number of threads; only the sheets differ from run to run, for they state the CPU time.
 
 use std::{
@@ -19,11 +20,16 @@ use steradian::{glam::DVec3, ilv::luminance};
 #[path = "../../tests/tracer/mod.rs"]
 mod tracer;
 
+mod comparison;
+mod curves;
 mod error;
 mod method;
 mod options;
+#[path = "../ilv_report/page.rs"]
+mod page;
 mod picture;
 mod progress;
+mod radiance;
 mod reference;
 mod sweep;
 mod table;

@@ -23,6 +23,7 @@ pub fn label(method: MethodName) -> &'static str {
         MethodName::Paper => "paper",
         MethodName::Stratified => "stratified",
         MethodName::Gradients => "gradients",
+        MethodName::Lattice => "lattice",
         MethodName::Seeded => "seeded",
         MethodName::Default => "default",
         MethodName::Unbiased => "unbiased",
@@ -38,13 +39,18 @@ pub fn settings(method: MethodName, scene: &Scene, options: &Options) -> Result<
         MethodName::Stratified | MethodName::Gradients | MethodName::Seeded => {
             AdaptiveSampler::stratified(options.stratified_rays)?
         }
+        MethodName::Lattice => AdaptiveSampler::lattice(options.stratified_rays)?,
         MethodName::Default => AdaptiveSampler::default(),
         MethodName::Unbiased => AdaptiveSampler::unbiased(),
     };
     let validity = match method {
         MethodName::Brute => None,
         MethodName::Original | MethodName::Paper | MethodName::Stratified => Some(ward(options.accuracy, scene)?),
-        MethodName::Gradients | MethodName::Seeded | MethodName::Default | MethodName::Unbiased => {
+        MethodName::Gradients
+        | MethodName::Lattice
+        | MethodName::Seeded
+        | MethodName::Default
+        | MethodName::Unbiased => {
             let accuracy = (REACH_OF_GRADIENTS * options.accuracy).min(Validity::LARGEST_ACCURACY);
             Some(Validity::for_scene(accuracy, scene.size)?)
         }

@@ -41,6 +41,14 @@ pub struct Options {
     #[arg(long)]
     pub sweep: bool,
 
+    /// With `--sweep`: a Python in which pyradiance and numpy are installed, to run Radiance beside the methods
+    #[arg(long)]
+    pub radiance: Option<PathBuf>,
+
+    /// With `--sweep`: the folder of the documentation, whose page and figures are then written
+    #[arg(long)]
+    pub docs: Option<PathBuf>,
+
     /// Error at which a light vector stops being used (Ward's accuracy): smaller is slower and better. Light vectors with
     /// gradients are used up to twice of it
     #[arg(long, default_value_t = 0.4, value_parser = parse_accuracy)]
@@ -50,7 +58,7 @@ pub struct Options {
     #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     pub brute_rays: u32,
 
-    /// Rays per light vector of `stratified`, `gradients` and `seeded`
+    /// Rays per light vector of `stratified`, `gradients`, `lattice` and `seeded`
     #[arg(long, default_value_t = 208, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     pub stratified_rays: u32,
 
@@ -83,7 +91,9 @@ pub enum MethodName {
     Stratified,
     /// The same, interpolated along their gradients
     Gradients,
-    /// The same, placed where a sequential test finds interpolation wrong
+    /// Light vectors of as many rays in step with each other, interpolated along their gradients
+    Lattice,
+    /// Those of `gradients`, placed where a sequential test finds interpolation wrong
     Seeded,
     /// Light vectors of this crate's adaptive sampler, interpolated along their gradients
     Default,

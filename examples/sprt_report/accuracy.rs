@@ -35,14 +35,20 @@ struct Case {
 const SHOWN: [&str; 5] = ["brief", "classic", "narrow", "tiny_errors", "cal_45_55"];
 
 /// Error of the acceptance, absolute, and of the mean sample size, relative.
-fn error(of: &Approximation, accept: f64, mean: f64) -> [f64; 2] {
+pub fn error(of: &Approximation, accept: f64, mean: f64) -> [f64; 2] {
     [(of.accept() - accept).abs(), (of.mean_samples() / mean - 1.0).abs()]
 }
 
-fn worst(kept: &mut [f64; 2], new: [f64; 2]) {
+/// Keeps the larger ones.
+pub fn worst(kept: &mut [f64; 2], new: [f64; 2]) {
     for (kept, new) in kept.iter_mut().zip(new) {
         *kept = kept.max(new);
     }
+}
+
+/// The two errors as they stand in a table.
+pub fn show([accept, mean]: [f64; 2]) -> String {
+    format!("{accept:.5}, {:.2} %", 100.0 * mean)
 }
 
 pub fn print(out: &mut impl Write) -> Result<(), Box<dyn Error>> {
@@ -67,7 +73,6 @@ pub fn print(out: &mut impl Write) -> Result<(), Box<dyn Error>> {
             worst(&mut corrected, error(&test.corrected_approximation(p)?, accept, mean));
             cases += 1;
         }
-        let show = |[accept, mean]: [f64; 2]| format!("{accept:.5}, {:.2} %", 100.0 * mean);
         let (wald, corrected) = (show(wald), show(corrected));
         let exact = if exact_error > 0.0 { format!("{exact_error:.0e}") } else { "0".to_owned() };
         writeln!(out, "| {p0}, {p1}, {alpha}, {beta} | {cases} | {exact} | {wald} | {corrected} |")?;

@@ -1,7 +1,8 @@
 //! How exact the sequential test is, and what it does where doubles go astray.
 //!
-//! Prints two tables of `docs/sprt.md` in Markdown: `accuracy` (exact and approximate characteristics against the values
-//! of 20 digits in `tests/oracles/sprt.json`) and `ties` (ratios that lie exactly on a boundary). Name one of them to
+//! Prints the tables of `docs/sprt.md` in Markdown: `accuracy` (exact and approximate characteristics against the values
+//! of 20 digits in `tests/oracles/sprt.json`), `families` (approximations of normal, Poisson and exponential tests against
+//! the exact characteristics) and `ties` (ratios that lie exactly on a boundary). Name one of them to
 //! have it alone. What everything costs: `cargo bench --bench sprt`.
 
 use std::{
@@ -14,19 +15,21 @@ use clap::{Parser, ValueEnum};
 use steradian::sprt::{Bernoulli, Bounds, Sprt};
 
 mod accuracy;
+mod families;
 mod ties;
 
 /// The tables of `docs/sprt.md`.
 #[derive(Parser)]
 struct Options {
     /// Which tables to print
-    #[arg(value_enum, default_values_t = [Table::Accuracy, Table::Ties])]
+    #[arg(value_enum, default_values_t = [Table::Accuracy, Table::Families, Table::Ties])]
     tables: Vec<Table>,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
 enum Table {
     Accuracy,
+    Families,
     Ties,
 }
 
@@ -58,6 +61,7 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         }
         match table {
             Table::Accuracy => accuracy::print(&mut out)?,
+            Table::Families => families::print(&mut out)?,
             Table::Ties => ties::print(&mut out)?,
         }
     }

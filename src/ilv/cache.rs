@@ -7,7 +7,12 @@ use alloc::vec::Vec;
 use glam::DVec3;
 use rstar::{AABB, RTree, RTreeObject};
 
-use super::{Estimate, LightVector, Validity, ValidityError, Vicinity, interpolation::interpolate, record::Record};
+use super::{
+    Estimate, LightVector, Validity, ValidityError, Vicinity,
+    interpolation::interpolate,
+    reading::Reading,
+    record::{Record, is_sound},
+};
 
 /// A store of light vectors that answers a point and a normal with an interpolated irradiance.
 ///
@@ -70,7 +75,7 @@ pub enum CacheError {
     },
     /// The cache holds `u32::MAX` records.
     Full,
-    /// The light vector of a record is none that a gather could have made.
+    /// The light vector of a record is none that a gather over the normal of the record could have made.
     Vector {
         /// Number of the record, in the order of insertion.
         record: usize,
@@ -151,7 +156,7 @@ impl Cache {
         self.records.iter().map(|record| (record.position, record.normal, record.radius, &record.vector))
     }
 
-    /// Stores the light vector gathered at `position` on the surface with unit `normal`.
+    /// Stores the light vector gathered at `position` on the surface with unit `normal`, the normal of its gather.
     ///
     /// Takes time in proportion to the number of records within the largest validity radius.
     ///
@@ -163,6 +168,9 @@ impl Cache {
         }
         let Some(normal) = unit(normal) else { return Err(CacheError::Normal { normal }) };
         let index = u32::try_from(self.records.len()).map_err(|_| CacheError::Full)?;
+        if !is_sound(&vector, normal) {
+            return Err(CacheError::Vector { record: self.records.len() });
+        }
         let total = self.total + vector.luminance();
         let mut radius = self.validity.radius(&vector, total / (self.records.len() + 1) as f64);
         for neighbour in self.near(position, radius) {
@@ -177,13 +185,14 @@ impl Cache {
     /// Takes back what the records promise for `position` on the surface with unit `normal`: none of them is used there again,
     /// relaxed or not, but those whose radius is the smallest already.
     ///
-    /// For callers that know better: a test found that interpolation is wrong there.
+    /// For callers that know better: a test found that interpolation is wrong there. Nothing changes where the position is not
+    /// finite or the normal not a unit vector.
     pub fn retract(&mut self, position: DVec3, normal: DVec3) {
         let Some(normal) = unit(normal).filter(|_| position.is_finite()) else { return };
         let accuracy = self.validity.accuracy() * Self::RELAXATION;
         let used: Vec<usize> = self
             .near(position, 0.0)
-            .filter(|&index| self.records[index].error_at(position, normal, accuracy).is_some())
+            .filter(|&index| Reading::of(&self.records[index]).error_at(position, normal, accuracy).is_some())
             .collect();
         for index in used {
             let record = &mut self.records[index];
@@ -214,25 +223,22 @@ impl Cache {
     }
 
     /// Checks what every cache keeps to: records as [`insert`](Self::insert) takes them, light vectors as a gather makes
-    /// them, radii within their bounds that grow no faster than the distance to another record, and an index that finds every
-    /// record all over its reach.
+    /// them, an index that finds every record all over its reach, and radii within their bounds that grow no faster than the
+    /// distance to another record.
     ///
-    /// Takes time in proportion to the square of the number of records; meant for tests and for caches from elsewhere.
+    /// Takes time in proportion to the number of pairs of records within a radius of each other.
     ///
     /// # Errors
     /// [`CacheError`]: the first rule broken.
     pub fn validate(&self) -> Result<(), CacheError> {
+        const SLACK: f64 = 1.0 + 1e-9;
         for (index, record) in self.records.iter().enumerate() {
             record.check(index)?;
-            let slack = 1.0 + 1e-9;
-            if !(record.radius >= self.validity.minimum() / slack && record.radius <= self.validity.maximum() * slack) {
+            let bounds = self.validity.minimum() / SLACK..=self.validity.maximum() * SLACK;
+            if !bounds.contains(&record.radius) {
                 return Err(CacheError::Radius { record: index, radius: record.radius });
             }
-            let allowed = self.records.iter().map(|other| other.radius + record.position.distance(other.position));
-            if allowed.fold(f64::INFINITY, f64::min) * slack < record.radius {
-                return Err(CacheError::Radius { record: index, radius: record.radius });
-            }
-            let reach = record.radius * self.validity.accuracy() * Self::RELAXATION / slack;
+            let reach = record.radius * self.validity.accuracy() * Self::RELAXATION / SLACK;
             for end in [-reach, reach] {
                 if !self.near(record.position + DVec3::splat(end), 0.0).any(|found| found == index) {
                     return Err(CacheError::Index { record: index });
@@ -241,6 +247,14 @@ impl Cache {
         }
         if self.tree.size() != self.records.len() {
             return Err(CacheError::Index { record: self.records.len() });
+        }
+        for (index, record) in self.records.iter().enumerate() {
+            // A record that allows less than this radius is nearer than it.
+            for other in self.near(record.position, record.radius).map(|near| &self.records[near]) {
+                if record.radius > (other.radius + record.position.distance(other.position)) * SLACK {
+                    return Err(CacheError::Radius { record: index, radius: record.radius });
+                }
+            }
         }
         Ok(())
     }
@@ -262,8 +276,14 @@ impl Cache {
 
     pub(super) fn interpolated(&self, position: DVec3, normal: DVec3, accuracy: f64) -> Option<Estimate> {
         let normal = unit(normal).filter(|_| position.is_finite())?;
-        let near = self.near(position, 0.0).map(|index| &self.records[index]);
-        interpolate(near, position, normal, accuracy, self.validity.uses_gradients())
+        let read = |index: usize| {
+            let reading = Reading::of(&self.records[index]);
+            reading.error_at(position, normal, accuracy).map(|error| (index, reading, error))
+        };
+        let mut valid: Vec<(usize, Reading<'_>, f64)> = self.near(position, 0.0).filter_map(read).collect();
+        valid.sort_unstable_by_key(|&(index, ..)| index);
+        let valid = valid.iter().map(|(_, reading, error)| (reading, *error));
+        interpolate(valid, position, normal, accuracy, self.validity.uses_gradients())
     }
 
     /// The records that are of use anywhere in the box from `lower` to `upper`: many lookups in a small region then cost one
@@ -274,9 +294,10 @@ impl Cache {
     pub fn within(&self, lower: DVec3, upper: DVec3) -> Vicinity<'_> {
         let bounded = lower.cmple(upper).all() && lower.is_finite() && upper.is_finite();
         let touched = bounded.then(|| AABB::from_corners(lower.to_array(), upper.to_array()));
-        let records = touched.iter().flat_map(|touched| self.tree.locate_in_envelope_intersecting(touched));
-        let records = records.map(|reach| &self.records[reach.record as usize]).collect();
-        Vicinity::new(self, [lower, upper], records)
+        let found = touched.iter().flat_map(|touched| self.tree.locate_in_envelope_intersecting(touched));
+        let mut found: Vec<u32> = found.map(|reach| reach.record).collect();
+        found.sort_unstable();
+        Vicinity::new(self, [lower, upper], found.into_iter().map(|index| &self.records[index as usize]))
     }
 
     /// The rule, and all records as they are stored.

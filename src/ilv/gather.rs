@@ -8,16 +8,10 @@ use glam::DVec3;
 use rand::{Rng, RngExt};
 
 use super::{
-    AdaptiveSampler, Cell, Frame, LightVector, Pilot, Points, RadianceSource, Refinement, Weights, Workspace,
-    cell::Coordinates,
-    luminance,
-    pilot::{Density, Scatter},
-    refinement::Homogeneity,
-    sampler::Plan,
-    spiral::{GOLDEN, Spiral},
-    weights::Weighing,
+    AdaptiveSampler, Cell, Frame, LightVector, Points, RadianceSource, Workspace, patchwork::Patchwork, sampler::Plan,
+    splitting::Splitting, tracing::Tracing, weights::Weighing,
 };
-use crate::{sprt::Decision, voronoi::VoronoiError};
+use crate::voronoi::VoronoiError;
 
 /// One ray of a gather.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -216,22 +210,21 @@ impl AdaptiveSampler {
         R: Rng + ?Sized,
     {
         let most = self.most_rays();
-        let diagram = self.weights != Weights::LeafMeasure || !matches!(self.plan, Plan::OneEach);
-        if diagram && most > Gather::MAX_SITES {
+        if self.takes_a_diagram() && most > Gather::MAX_SITES {
             return Err(GatherError::TooManySites { rays: most });
         }
         let frame = frame.rotated(core::f64::consts::TAU * rng.random::<f64>());
-        let mut tracing = Tracing { frame, points: self.points, source, reflectance, rng, shots: Vec::new() };
-        let cells = self.base_cells();
-        let leaves = match &self.plan {
-            Plan::OneEach => tracing.one_ray_each(cells.collect(), self.grid[1] as usize)?,
-            Plan::Spiral(rays) => tracing.spiral(cells.collect(), self.grid, *rays)?,
-            Plan::Sequential(rule) => tracing.refine(cells, rule)?,
-            Plan::Piloted(pilot) => {
-                tracing.piloted(cells.collect(), self.grid, pilot, self.weights.shares_measures())?
-            }
+        let values = core::mem::take(&mut workspace.values);
+        let mut tracing = Tracing { frame, points: self.points, source, reflectance, rng, rays: Vec::new(), values };
+        tracing.values.clear();
+        let shot = match &self.plan {
+            Plan::OneEach => tracing.one_ray_each(Patchwork::plain(self.map, self.grid)),
+            Plan::Sequential(rule) => Splitting::new(&mut tracing, rule).run(self.base_cells()),
+            Plan::Piloted(pilot) => tracing.piloted(self.map, self.base_cells(), pilot, self.weights.shares_measures()),
         };
-        let mut rays: Vec<Ray> = tracing.shots.iter().map(|shot| shot.ray).collect();
+        let Tracing { mut rays, values, .. } = tracing;
+        workspace.values = values;
+        let leaves = shot?;
         for (index, members) in leaves.members().enumerate() {
             for &ray in members {
                 rays[ray as usize].cell = index as u32;
@@ -245,296 +238,10 @@ impl AdaptiveSampler {
         Ok(Gather { frame, cells: leaves.cells, rays, vector })
     }
 
-    fn base_cells(&self) -> impl Iterator<Item = Cell> + use<> {
+    /// The cells of the base grid.
+    fn base_cells(&self) -> Vec<Cell> {
         let (map, grid) = (self.map, self.grid);
-        (0..grid[0]).flat_map(move |ring| (0..grid[1]).map(move |sector| Cell::of_grid(map, grid, ring, sector)))
+        let ring = |ring| (0..grid[1]).map(move |sector| Cell::of_grid(map, grid, ring, sector));
+        (0..grid[0]).flat_map(ring).collect()
     }
-}
-
-/// A ray with what only the gather needs to know of it.
-struct Shot {
-    ray: Ray,
-    at: Coordinates,
-    /// The tested quantity: luminance of the reflected radiance.
-    y: f64,
-}
-
-/// A cell on its way to becoming a leaf.
-struct Branch {
-    cell: Cell,
-    /// Indices of every ray in the cell.
-    rays: Vec<u32>,
-    /// How many of the rays, counted from the end, the test of this cell may see.
-    tested: usize,
-    /// Start of the low-discrepancy sequence in the cell, and number of points taken from it.
-    sequence: ([f64; 2], u32),
-}
-
-/// The leaves of a gather and the rays in each.
-pub(super) struct Leaves {
-    pub cells: Vec<Cell>,
-    /// Indices of the rays, leaf after leaf.
-    members: Vec<u32>,
-    /// End of each leaf's rays in `members`.
-    ends: Vec<usize>,
-    /// How many rays each leaf was to have, where their number is random; empty where it is what it is.
-    pub expected: Vec<f64>,
-    /// Number of rays, from the first, that only planned the others.
-    pub discarded: usize,
-}
-
-impl Leaves {
-    fn from_branches(branches: &[Branch]) -> Self {
-        let mut leaves =
-            Self { cells: Vec::new(), members: Vec::new(), ends: Vec::new(), expected: Vec::new(), discarded: 0 };
-        for branch in branches {
-            leaves.cells.push(branch.cell);
-            leaves.members.extend_from_slice(&branch.rays);
-            leaves.ends.push(leaves.members.len());
-        }
-        leaves
-    }
-
-    /// Cells with the rays that lie in them.
-    fn from_cells(cells: Vec<Cell>, cell_of_ray: &[usize], expected: Vec<f64>, discarded: usize) -> Self {
-        let mut ends: Vec<usize> = [0].repeat(cells.len());
-        for &cell in cell_of_ray {
-            ends[cell] += 1;
-        }
-        let mut total = 0;
-        for end in &mut ends {
-            // For now the start of the cell's rays; every ray moves it on, to the end at last.
-            total += core::mem::replace(end, total);
-        }
-        let mut members: Vec<u32> = [0].repeat(cell_of_ray.len());
-        for (ray, &cell) in cell_of_ray.iter().enumerate() {
-            members[ends[cell]] = ray as u32;
-            ends[cell] += 1;
-        }
-        Self { cells, members, ends, expected, discarded }
-    }
-
-    /// The rays of every leaf, by index, in the order of the cells.
-    pub fn members(&self) -> impl Iterator<Item = &[u32]> {
-        let starts = core::iter::once(&0).chain(&self.ends);
-        starts.zip(&self.ends).map(|(&start, &end)| &self.members[start..end])
-    }
-}
-
-/// The state of a gather while rays are being shot.
-struct Tracing<'a, S: ?Sized, B, R: ?Sized> {
-    frame: Frame,
-    points: Points,
-    source: &'a mut S,
-    reflectance: B,
-    rng: &'a mut R,
-    shots: Vec<Shot>,
-}
-
-impl<S, B, R> Tracing<'_, S, B, R>
-where
-    S: RadianceSource + ?Sized,
-    B: FnMut(DVec3) -> DVec3,
-    R: Rng + ?Sized,
-{
-    fn branch(&mut self, cell: Cell, rays: Vec<u32>, tested: usize) -> Branch {
-        let start = match self.points {
-            Points::Random => [0.0; 2],
-            Points::LowDiscrepancy => self.first_point(),
-        };
-        Branch { cell, rays, tested, sequence: (start, 0) }
-    }
-
-    fn one_ray_each(&mut self, cells: Vec<Cell>, sectors: usize) -> Result<Leaves, GatherError> {
-        self.shots.reserve_exact(cells.len());
-        let start = match self.points {
-            Points::Random => None,
-            Points::LowDiscrepancy => Some(self.first_point()),
-        };
-        for (index, cell) in cells.iter().enumerate() {
-            let s = match start {
-                None => self.first_point(),
-                Some(start) => golden_point(start, index / sectors, index % sectors),
-            };
-            self.shoot(cell, s)?;
-        }
-        let members: Vec<u32> = (0..cells.len() as u32).collect();
-        let ends = (1..=cells.len()).collect();
-        Ok(Leaves { cells, members, ends, expected: Vec::new(), discarded: 0 })
-    }
-
-    /// Shoots a golden spiral at the given density; returns the expected number of rays in every cell.
-    fn shoot_spiral(
-        &mut self,
-        rays: u32,
-        density: &Density,
-        cells: &[Cell],
-        cell_of_ray: &mut Vec<usize>,
-    ) -> Result<Vec<f64>, GatherError> {
-        self.shots.reserve(rays as usize);
-        for point in Spiral::new(rays, self.rng) {
-            let (cell, s) = density.place(point);
-            cell_of_ray.push(cell);
-            self.shoot(&cells[cell], s)?;
-        }
-        let per_cell = f64::from(rays) / cells.len() as f64;
-        Ok(density.weights().iter().map(|weight| weight * per_cell).collect())
-    }
-
-    fn spiral(&mut self, cells: Vec<Cell>, grid: [u32; 2], rays: u32) -> Result<Leaves, GatherError> {
-        let mut cell_of_ray = Vec::with_capacity(rays as usize);
-        let expected = self.shoot_spiral(rays, &Density::uniform(grid), &cells, &mut cell_of_ray)?;
-        Ok(Leaves::from_cells(cells, &cell_of_ray, expected, 0))
-    }
-
-    /// A pilot, and the rays that it asks for; `discard` leaves its own rays out of the estimate.
-    fn piloted(
-        &mut self,
-        cells: Vec<Cell>,
-        grid: [u32; 2],
-        pilot: &Pilot,
-        discard: bool,
-    ) -> Result<Leaves, GatherError> {
-        let mut cell_of_ray = Vec::new();
-        let mut expected = self.shoot_spiral(pilot.rays(), &Density::uniform(grid), &cells, &mut cell_of_ray)?;
-        let leaves = Leaves::from_cells(cells.clone(), &cell_of_ray, Vec::new(), 0);
-        let scatter: Vec<Scatter> = cells
-            .iter()
-            .zip(leaves.members())
-            .map(|(cell, members)| {
-                Scatter::of(cell.projected_solid_angle(), members.iter().map(|&ray| self.shots[ray as usize].y))
-            })
-            .collect();
-        let mut discarded = 0;
-        if let Some((density, rays)) = pilot.plan(&scatter, grid, discard) {
-            expected = self.shoot_spiral(rays, &density, &cells, &mut cell_of_ray)?;
-            discarded = if discard { pilot.rays() as usize } else { 0 };
-        }
-        Ok(Leaves::from_cells(cells, &cell_of_ray, expected, discarded))
-    }
-
-    /// The first point of a new sequence in a cell.
-    fn first_point(&mut self) -> [f64; 2] {
-        [self.rng.random(), self.rng.random()]
-    }
-
-    /// Tests and splits, one depth after the other, until every cell is a leaf.
-    fn refine(&mut self, cells: impl Iterator<Item = Cell>, rule: &Refinement) -> Result<Leaves, GatherError> {
-        let mut leaves: Vec<Branch> = Vec::new();
-        let mut open: Vec<Branch> = cells.map(|cell| self.branch(cell, Vec::new(), 0)).collect();
-        for depth in 0..=rule.depth() {
-            for branch in &mut open {
-                while branch.tested < rule.batch() as usize {
-                    self.shoot_into(branch)?;
-                }
-            }
-            if depth == rule.depth() {
-                break;
-            }
-            let total: f64 = leaves.iter().chain(&open).map(|branch| self.mean_light(branch)).sum();
-            let mut next = Vec::new();
-            for mut branch in open {
-                if self.wants_a_split(&mut branch, rule, total)? {
-                    for cell in branch.cell.split() {
-                        let inside = |&&ray: &&u32| cell.contains(self.shots[ray as usize].at);
-                        let rays: Vec<u32> = branch.rays.iter().filter(inside).copied().collect();
-                        let tested = if rule.inherits() { rays.len() } else { 0 };
-                        next.push(self.branch(cell, rays, tested));
-                    }
-                } else {
-                    leaves.push(branch);
-                }
-            }
-            open = next;
-        }
-        leaves.append(&mut open);
-        Ok(Leaves::from_branches(&leaves))
-    }
-
-    /// Runs the homogeneity test of a cell whose first batch is complete, shooting rays while it is undecided.
-    fn wants_a_split(&mut self, branch: &mut Branch, rule: &Refinement, total: f64) -> Result<bool, GatherError> {
-        let projected = branch.cell.projected_solid_angle();
-        let values = |shots: &[Shot], branch: &Branch| -> Vec<f64> {
-            branch.rays[branch.rays.len() - branch.tested..].iter().map(|&ray| shots[ray as usize].y).collect()
-        };
-        let seen = values(&self.shots, branch);
-        let largest = seen.iter().copied().fold(0.0, f64::max);
-        if !rule.is_worth_a_split(largest * projected, total) {
-            return Ok(false);
-        }
-        let (first, rest) = seen.split_at(rule.batch() as usize);
-        let mut test = Homogeneity::open(rule, first);
-        for &y in rest {
-            test.push(y);
-        }
-        loop {
-            if let Some(verdict) = test.verdict() {
-                return Ok(verdict == Decision::RejectH0);
-            }
-            let y = self.shoot_into(branch)?;
-            test.push(y);
-        }
-    }
-
-    /// Estimated part of the reflected light that comes through the cell.
-    fn mean_light(&self, branch: &Branch) -> f64 {
-        let sum: f64 = branch.rays.iter().map(|&ray| self.shots[ray as usize].y).sum();
-        sum / branch.rays.len() as f64 * branch.cell.projected_solid_angle()
-    }
-
-    /// Shoots one more ray into the cell of a branch and returns its tested value.
-    fn shoot_into(&mut self, branch: &mut Branch) -> Result<f64, GatherError> {
-        let s = match self.points {
-            Points::Random => [self.rng.random(), self.rng.random()],
-            Points::LowDiscrepancy => r2_point(&mut branch.sequence),
-        };
-        branch.rays.push(self.shots.len() as u32);
-        branch.tested += 1;
-        self.shoot(&branch.cell, s)
-    }
-
-    /// Shoots a ray through the point `s` of a cell and returns its tested value.
-    fn shoot(&mut self, cell: &Cell, s: [f64; 2]) -> Result<f64, GatherError> {
-        let at = cell.at(s);
-        let direction = self.frame.to_world(cell.direction(at));
-        let sample = self.source.sample(direction);
-        let radiance = sample.radiance;
-        if !is_colour(radiance) {
-            return Err(GatherError::Radiance { direction, radiance });
-        }
-        if sample.distance.is_nan() || sample.distance < 0.0 {
-            return Err(GatherError::Distance { direction, distance: sample.distance });
-        }
-        let reflectance = (self.reflectance)(direction);
-        if !is_colour(reflectance) {
-            return Err(GatherError::Reflectance { direction, reflectance });
-        }
-        let y = luminance(reflectance * radiance);
-        let ray = Ray { direction, radiance, distance: sample.distance, moment: DVec3::ZERO, cell: 0 };
-        self.shots.push(Shot { ray, at, y });
-        Ok(y)
-    }
-}
-
-fn is_colour(rgb: DVec3) -> bool {
-    rgb.to_array().iter().all(|x| (0.0..=Gather::BRIGHTEST).contains(x))
-}
-
-/// The point of a cell of a grid whose points, along a ring, climb in golden steps, and whose rings turn against each other
-/// in golden steps: every strip of the grid has its points evenly across. Uniform in the cell when `start` is.
-fn golden_point(start: [f64; 2], ring: usize, sector: usize) -> [f64; 2] {
-    let fraction = |start: f64, steps: usize| {
-        let x = start + steps as f64 * GOLDEN;
-        x - x.floor()
-    };
-    [fraction(start[0], sector), fraction(start[1], ring)]
-}
-
-/// The next point of the R2 sequence: multiples of the inverse of the plastic number and of its square, modulo 1.
-fn r2_point((start, taken): &mut ([f64; 2], u32)) -> [f64; 2] {
-    const STEPS: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_2];
-    let k = f64::from(*taken);
-    *taken += 1;
-    let fraction = |x: f64| x - x.floor();
-    [fraction(start[0] + k * STEPS[0]), fraction(start[1] + k * STEPS[1])]
 }

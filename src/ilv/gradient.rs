@@ -1,11 +1,17 @@
 //! The translation gradient of the irradiance, from the borders between cells.
 
-use alloc::vec::Vec;
-
 use glam::DVec3;
 
-use super::{Cell, Frame, Ray};
+use super::{
+    Frame, Ray,
+    cell::Meridian,
+    patchwork::{Column, Patchwork},
+};
 use crate::voronoi::{Diagram, HORIZON};
+
+/// A side that is so many times as far as the other is hidden by it. Among 1, 1.2, 1.5, 2 and 4 the largest had the least scatter on
+/// points of three scenes; without a limit the border between a wall and the sky would be at infinity.
+const HIDDEN: f64 = 4.0;
 
 /// The gradient of red, green and blue while borders are being added.
 ///
@@ -18,9 +24,11 @@ struct Gradient([DVec3; 3]);
 impl Gradient {
     /// A border with the integral `across` = ∫ N (n·ω) dl, N pointing from the first ray's cell to the second's.
     ///
-    /// The nearer side hides the other, so that the border is at its distance.
+    /// Where one side is much nearer it hides the other, and the border is at its distance. Elsewhere both belong to surfaces that
+    /// meet there or go on, with the border half way in 1/t, which is linear in the direction on a plane.
     fn add(&mut self, across: DVec3, from: &Ray, to: &Ray) {
-        let distance = from.distance.min(to.distance);
+        let (near, far) = (from.distance.min(to.distance), from.distance.max(to.distance));
+        let distance = if far < HIDDEN * near { near * (2.0 / (1.0 + near / far)) } else { near };
         // In an edge of the scene the gradient is infinite or nothing; nobody can tell which.
         if distance > 0.0 {
             let step = across / distance;
@@ -63,27 +71,58 @@ pub(super) fn of_diagram(diagram: &Diagram, rays: &[Ray], normal: DVec3) -> [DVe
     gradient.in_tangent_plane(normal)
 }
 
-/// From the borders of a grid of cells, `sectors` in a ring, with one ray in each.
+/// From the borders of grids with one ray in each cell, laid over each other, each with its share in the light; the rays of one come
+/// after those of another.
 ///
 /// # Source
 /// Ward and Heckbert, *Irradiance Gradients* (1992), with the integrals over the borders taken exactly.
-pub(super) fn of_grid(cells: &[Cell], sectors: usize, rays: &[Ray], frame: &Frame) -> [DVec3; 3] {
+pub(super) fn of_grids(grids: &[(Patchwork, f64)], rays: &[Ray], frame: &Frame) -> [DVec3; 3] {
     let mut gradient = Gradient::default();
-    let meridians: Vec<DVec3> = cells[..sectors].iter().map(|cell| cell.meridian_normal()).collect();
-    let arcs: Vec<DVec3> = cells[..sectors].iter().map(|cell| Cell::outward_arc(cell.azimuth())).collect();
-    for (ring, row) in rays.chunks_exact(sectors).enumerate() {
-        let cell = &cells[ring * sectors];
-        let height = cell.meridian_height(cell.u());
-        for sector in 0..sectors {
-            let next = if sector + 1 < sectors { sector + 1 } else { 0 };
-            gradient.add(meridians[sector] * height, &row[sector], &row[next]);
-        }
-        if let Some(above) = rays.get((ring + 1) * sectors..(ring + 2) * sectors) {
-            let factor = -cell.parallel_factor();
-            for sector in 0..sectors {
-                gradient.add(arcs[sector] * factor, &row[sector], &above[sector]);
-            }
+    let mut rest = rays;
+    for (grid, share) in grids {
+        let (rays, others) = rest.split_at(grid.len());
+        rest = others;
+        if *share > 0.0 {
+            add_grid(&mut gradient, grid, *share, rays);
         }
     }
     Gradient(gradient.0.map(|local| frame.to_world(local))).in_tangent_plane(frame.normal())
+}
+
+fn add_grid(gradient: &mut Gradient, grid: &Patchwork, share: f64, rays: &[Ray]) {
+    let mut below: Option<(f64, &[Column], &[Ray])> = None;
+    let mut rest = rays;
+    for ring in &grid.rings {
+        let columns = &grid.columns[ring.columns.clone()];
+        for row in &grid.rows[ring.rows.clone()] {
+            let (rays, others) = rest.split_at(columns.len());
+            rest = others;
+            let height = row.strip.meridian_height();
+            for ((column, ray), beyond) in columns.iter().zip(rays).zip(rays.iter().cycle().skip(1)) {
+                // The normal of the meridian, towards larger azimuths.
+                let Meridian { sin, cos } = column.ends[1];
+                gradient.add(DVec3::new(-sin, cos, 0.0) * (height * share), ray, beyond);
+            }
+            if let Some((factor, lower, below)) = below {
+                add_parallel(lower, columns, |i, j, arc| {
+                    gradient.add(arc * (-factor * share), &below[i], &rays[j]);
+                });
+            }
+            below = Some((row.strip.parallel_factor(), columns, rays));
+        }
+    }
+}
+
+/// Calls `add` with a column below a parallel, one above, and ∫ (cos φ, sin φ, 0) dφ over what they share of it.
+fn add_parallel(lower: &[Column], upper: &[Column], mut add: impl FnMut(usize, usize, DVec3)) {
+    let (mut i, mut j) = (0, 0);
+    let mut west = lower[0].ends[0];
+    while i < lower.len() && j < upper.len() {
+        let (a, b) = (lower[i].azimuth[1], upper[j].azimuth[1]);
+        let east = if a <= b { lower[i].ends[1] } else { upper[j].ends[1] };
+        add(i, j, DVec3::new(east.sin - west.sin, west.cos - east.cos, 0.0));
+        west = east;
+        i += usize::from(a <= b);
+        j += usize::from(b <= a);
+    }
 }

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use glam::DVec3;
 
-use super::{Cache, cache::unit, record::Record};
+use super::{Cache, cache::unit, reading::Reading, record::Record};
 
 /// An interpolated irradiance.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,21 +21,35 @@ pub struct Estimate {
 pub struct Vicinity<'a> {
     cache: &'a Cache,
     corners: [DVec3; 2],
-    records: Vec<&'a Record>,
+    readings: Vec<Reading<'a>>,
 }
 
 impl<'a> Vicinity<'a> {
-    pub(super) fn new(cache: &'a Cache, corners: [DVec3; 2], records: Vec<&'a Record>) -> Self {
-        Self { cache, corners, records }
+    pub(super) fn new(cache: &'a Cache, corners: [DVec3; 2], records: impl Iterator<Item = &'a Record>) -> Self {
+        let farthest = cache.validity().accuracy() * Cache::RELAXATION;
+        let readings = records.filter_map(|record| Reading::of(record).inside(corners, farthest)).collect();
+        Self { cache, corners, readings }
     }
 
-    /// What [`Cache::irradiance`] answers, to the rounding of its sum.
+    /// Whether [`Cache::irradiance`] has an answer.
+    #[must_use]
+    pub fn covers(&self, position: DVec3, normal: DVec3) -> bool {
+        let accuracy = self.cache.validity().accuracy();
+        if !self.holds(position) {
+            return self.cache.irradiance(position, normal).is_some();
+        }
+        let covers =
+            |normal| self.readings.iter().any(|reading| reading.error_at(position, normal, accuracy).is_some());
+        unit(normal).is_some_and(covers)
+    }
+
+    /// What [`Cache::irradiance`] answers, bit for bit.
     #[must_use]
     pub fn irradiance(&self, position: DVec3, normal: DVec3) -> Option<DVec3> {
         self.interpolated(position, normal, self.cache.validity().accuracy()).map(|estimate| estimate.irradiance)
     }
 
-    /// What [`Cache::irradiance_relaxed`] answers, to the rounding of its sum.
+    /// What [`Cache::irradiance_relaxed`] answers, bit for bit.
     #[must_use]
     pub fn irradiance_relaxed(&self, position: DVec3, normal: DVec3) -> Option<DVec3> {
         self.estimate_relaxed(position, normal).map(|estimate| estimate.irradiance)
@@ -48,18 +62,26 @@ impl<'a> Vicinity<'a> {
     }
 
     fn interpolated(&self, position: DVec3, normal: DVec3, accuracy: f64) -> Option<Estimate> {
-        let [lower, upper] = self.corners;
-        if !(lower.cmple(position).all() && position.cmple(upper).all()) {
+        if !self.holds(position) {
             return self.cache.interpolated(position, normal, accuracy);
         }
         let normal = unit(normal)?;
-        interpolate(self.records.iter().copied(), position, normal, accuracy, self.cache.validity().uses_gradients())
+        let errors = self.readings.iter().map(|reading| (reading, reading.error_at(position, normal, accuracy)));
+        let valid = errors.filter_map(|(reading, error)| Some((reading, error?)));
+        interpolate(valid, position, normal, accuracy, self.cache.validity().uses_gradients())
+    }
+
+    fn holds(&self, position: DVec3) -> bool {
+        let [lower, upper] = self.corners;
+        lower.cmple(position).all() && position.cmple(upper).all()
     }
 }
 
-/// Weighted mean of what the records say; the weight of each falls to zero where its error reaches `accuracy`.
-pub(super) fn interpolate<'a>(
-    records: impl Iterator<Item = &'a Record>,
+/// Weighted mean of what records say, each with its error, in the order of insertion: any search then gives the same bits.
+///
+/// The weight of a record falls to zero where its error reaches `accuracy`.
+pub(super) fn interpolate<'r>(
+    valid: impl Iterator<Item = (&'r Reading<'r>, f64)>,
     position: DVec3,
     normal: DVec3,
     accuracy: f64,
@@ -67,12 +89,11 @@ pub(super) fn interpolate<'a>(
 ) -> Option<Estimate> {
     let mut sum = DVec3::ZERO;
     let (mut total, mut variance) = (0.0, 0.0);
-    for record in records {
-        let Some(error) = record.error_at(position, normal, accuracy) else { continue };
+    for (reading, error) in valid {
         let weight = accuracy - error;
-        sum += record.irradiance_at(position, normal, gradients) * weight;
+        sum += reading.irradiance_at(position, normal, gradients) * weight;
         total += weight;
-        variance += (weight * record.vector.standard_error()).powi(2);
+        variance += (weight * reading.standard_error()).powi(2);
     }
     (total > 0.0).then(|| Estimate { irradiance: sum / total, standard_error: variance.sqrt() / total })
 }

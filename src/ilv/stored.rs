@@ -93,3 +93,57 @@ impl TryFrom<StoredCache> for Cache {
         Self::from_parts(validity.gradients(stored.gradients), records.collect())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use rand::SeedableRng;
+    use rand_pcg::Pcg64;
+
+    use super::*;
+    use crate::ilv::{AdaptiveSampler, Frame, Sample};
+
+    /// A cache of one record, with one number after the other replaced.
+    fn with(number: usize, value: f64) -> StoredCache {
+        let mut sky = |direction: DVec3| Sample { radiance: DVec3::ONE + direction, distance: 2.0 };
+        let frame = Frame::new(DVec3::Z).unwrap();
+        let gather = AdaptiveSampler::default().gather(frame, &mut sky, &mut Pcg64::seed_from_u64(1)).unwrap();
+        let mut cache = Cache::new(Validity::new(0.3, 0.1, 1.0).unwrap());
+        cache.insert(DVec3::ZERO, DVec3::Z, *gather.vector()).unwrap();
+        let mut stored = StoredCache::from(cache);
+        let StoredCache { accuracy, minimum, maximum, records, .. } = &mut stored;
+        let record = &mut records[0];
+        let [first, second, third] = &mut record.translation_gradient;
+        let mut numbers = Vec::from([accuracy, minimum, maximum, &mut record.radius]);
+        let vectors = [
+            &mut record.position,
+            &mut record.normal,
+            &mut record.irradiance,
+            &mut record.vector_irradiance,
+            first,
+            second,
+            third,
+        ];
+        for DVec3 { x, y, z } in vectors {
+            numbers.extend([x, y, z]);
+        }
+        numbers.extend([&mut record.standard_error, &mut record.mean_distance].map(|number| number.as_mut().unwrap()));
+        *numbers[number] = value;
+        stored
+    }
+
+    #[test]
+    fn no_number_of_a_cache_may_be_nan_or_negative_infinity() {
+        // Formats other than JSON can write them.
+        for number in 0..27 {
+            for value in [f64::NAN, f64::NEG_INFINITY] {
+                assert!(Cache::try_from(with(number, value)).is_err(), "number {number}: {value}");
+            }
+        }
+        for fence in 0..FENCES {
+            let mut stored = with(0, 0.3);
+            stored.records[0].fences[fence].y = f32::NAN;
+            assert_eq!(Cache::try_from(stored).unwrap_err(), CacheError::Vector { record: 0 });
+        }
+        assert!(Cache::try_from(with(0, 0.3)).is_ok());
+    }
+}

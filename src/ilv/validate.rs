@@ -65,7 +65,8 @@ impl fmt::Display for GatherDefect {
 impl core::error::Error for GatherDefect {}
 
 impl Gather {
-    /// Bound of the errors of the sums that [`validate`](Self::validate) checks, relative to the sums of absolute values.
+    /// Bound of the errors of the sums that [`validate`](Self::validate) checks, relative to the sums of absolute values; for
+    /// subnormal sums the smallest normal number.
     pub const TOLERANCE: f64 = 1e-11;
 
     /// Checks what holds for every gather.
@@ -98,10 +99,10 @@ impl Gather {
         if light.rays() as usize != self.rays().len() {
             return Err(GatherDefect::Count { rays: light.rays() });
         }
-        if (irradiance - light.irradiance()).abs().cmpgt(size * Self::TOLERANCE).any() {
+        if (irradiance - light.irradiance()).abs().cmpgt(size * Self::TOLERANCE + f64::MIN_POSITIVE).any() {
             return Err(GatherDefect::Irradiance { sum: irradiance });
         }
-        if (vector - light.vector_irradiance()).length() > Self::TOLERANCE * luminance(size) {
+        if (vector - light.vector_irradiance()).length() > Self::TOLERANCE * luminance(size) + f64::MIN_POSITIVE {
             return Err(GatherDefect::VectorIrradiance { sum: vector });
         }
         for value in [light.standard_error(), light.mean_distance()] {

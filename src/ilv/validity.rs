@@ -41,7 +41,7 @@ pub enum ValidityError {
         /// The value as given.
         accuracy: f64,
     },
-    /// The bounds of the radius are not 0 < minimum ≤ maximum ≤ [`Validity::LARGEST_RADIUS`].
+    /// The bounds of the radius are not [`Validity::SMALLEST_RADIUS`] ≤ minimum ≤ maximum ≤ [`Validity::LARGEST_RADIUS`].
     Radius {
         /// The lower bound as given.
         minimum: f64,
@@ -57,7 +57,7 @@ impl fmt::Display for ValidityError {
                 write!(f, "the accuracy must be above 0 and at most {}, got {accuracy}", Validity::LARGEST_ACCURACY)
             }
             Self::Radius { minimum, maximum } => {
-                write!(f, "the radii must be 0 < minimum <= maximum <= 1e90, got {minimum} and {maximum}")
+                write!(f, "the radii must be 1e-90 <= minimum <= maximum <= 1e90, got {minimum} and {maximum}")
             }
         }
     }
@@ -72,6 +72,9 @@ impl Validity {
     /// The largest validity radius that is accepted: the volumes of boxes that wide are still numbers.
     pub const LARGEST_RADIUS: f64 = 1e90;
 
+    /// The smallest validity radius that is accepted: squares of distances that matter beside it are still numbers.
+    pub const SMALLEST_RADIUS: f64 = 1e-90;
+
     /// The rule with the given accuracy parameter and bounds of the validity radius, in the unit of the scene.
     ///
     /// # Errors
@@ -80,7 +83,7 @@ impl Validity {
         if !(accuracy > 0.0 && accuracy <= Self::LARGEST_ACCURACY) {
             return Err(ValidityError::Accuracy { accuracy });
         }
-        if !(minimum > 0.0 && minimum <= maximum && maximum <= Self::LARGEST_RADIUS) {
+        if !(minimum >= Self::SMALLEST_RADIUS && minimum <= maximum && maximum <= Self::LARGEST_RADIUS) {
             return Err(ValidityError::Radius { minimum, maximum });
         }
         Ok(Self { accuracy, minimum, maximum, gradients: true })

@@ -5,12 +5,8 @@ use alloc::vec::Vec;
 use glam::DVec3;
 
 use super::{
-    Cell, CellMap, Frame, LightVector, Ray, Workspace,
-    fences::Fences,
-    gather::Leaves,
-    gradient, luminance,
-    pilot::{Scatter, squared_error},
-    sum::Sum,
+    Cell, CellMap, Frame, LightVector, Ray, Workspace, fences::Fences, gradient, leaves::Leaves, luminance,
+    pilot::Scatter, sum::Sum,
 };
 use crate::voronoi::VoronoiError;
 
@@ -24,6 +20,12 @@ pub enum Weights {
     /// When the cells do not depend on the radiances the irradiance is unbiased, and over cells of equal solid angle so
     /// is Φ. Over projected ones the tangent part of Φ is that of a field constant over each cell.
     LeafMeasure,
+    /// An equal share of the vector moment ∫ ω dω of the ray's cell, which is exact in a constant field. With a
+    /// [`Pilot`](super::Pilot), whose rays count, the cells are those of its grid and of the grid that follows, each with its share.
+    ///
+    /// Over cells of equal projected solid angle it is [`LeafMeasure`](Self::LeafMeasure). Over others it is biased, by what
+    /// the radiance varies together with the cosine across a cell.
+    CellMoment,
     /// The solid angle A of the ray's Voronoi cell: m = ω A. The paper's choice; in a constant field its irradiance is
     /// too large by about 1/n for n independent rays.
     VoronoiArea,
@@ -47,6 +49,10 @@ impl Weights {
     pub(super) fn shares_measures(self) -> bool {
         matches!(self, Self::LeafMeasure | Self::MeasureAndVoronoi)
     }
+
+    fn shares_leaves(self) -> bool {
+        self.shares_measures() || self == Self::CellMoment
+    }
 }
 
 /// Variance of a lattice over that of independent points in its cells: measured on points of three test scenes, at 208 and
@@ -67,20 +73,20 @@ pub(super) struct Weighing<'a> {
 impl Weighing<'_> {
     /// Sets the vector weight of every ray; returns the translation gradient.
     pub(super) fn assign(&self, rays: &mut [Ray], workspace: &mut Workspace) -> Result<[DVec3; 3], VoronoiError> {
-        if self.weights.shares_measures() {
+        if self.weights.shares_leaves() {
             self.share_leaves(rays);
+            if !self.leaves.grids.is_empty() && self.weights != Weights::MeasureAndVoronoi {
+                return Ok(gradient::of_grids(&self.leaves.grids, rays, self.frame));
+            }
         }
-        if self.weights == Weights::LeafMeasure && self.has_one_ray_each() {
-            return Ok(gradient::of_grid(&self.leaves.cells, self.sectors, rays, self.frame));
-        }
-        let Workspace { builder, sites } = workspace;
+        let Workspace { builder, sites, .. } = workspace;
         sites.clear();
         sites.extend(rays.iter().map(|ray| ray.direction));
         let normal = self.frame.normal();
         let dome = builder.hemisphere(sites, normal)?;
         for (index, ray) in rays.iter_mut().enumerate() {
             match self.weights {
-                Weights::LeafMeasure => {}
+                Weights::LeafMeasure | Weights::CellMoment => {}
                 Weights::VoronoiArea => ray.moment = ray.direction * dome.solid_angles()[index],
                 Weights::VoronoiMoment => ray.moment = dome.vector_moments()[index],
                 Weights::MeasureAndVoronoi => {
@@ -92,34 +98,43 @@ impl Weighing<'_> {
         Ok(gradient::of_diagram(dome, rays, normal))
     }
 
+    /// Whether rays count with the moments of their cells, or else with those at their own direction.
+    fn takes_moments(&self, map: CellMap) -> bool {
+        self.weights == Weights::CellMoment || map == CellMap::ProjectedSolidAngle
+    }
+
     fn share_leaves(&self, rays: &mut [Ray]) {
-        let cells = &self.leaves.cells;
-        let moments: Vec<DVec3> = match cells[0].map() {
-            CellMap::SolidAngle | CellMap::Balanced => Vec::new(),
-            CellMap::ProjectedSolidAngle if self.is_grid() => Cell::moments_of_grid(cells, self.sectors),
-            CellMap::ProjectedSolidAngle => cells.iter().map(Cell::vector_moment).collect(),
-        };
-        for (index, members) in self.leaves.members().enumerate() {
-            let share = self.leaves.expected.get(index).map_or(1.0 / members.len() as f64, |rays| rays.recip());
-            let moment = moments.get(index).map(|&moment| self.frame.to_world(moment) * share);
-            let extent = cells[index].extent() * share;
-            for &ray in self.counted(members) {
-                let ray = &mut rays[ray as usize];
-                ray.moment = moment.unwrap_or_else(|| {
-                    let cos = self.frame.normal().dot(ray.direction);
-                    ray.direction * (extent / cells[index].map().density(cos))
-                });
+        let normal = self.frame.normal();
+        let at_direction =
+            |ray: &Ray, extent: f64, map: CellMap| ray.direction * (extent / map.density(normal.dot(ray.direction)));
+        let mut rest = &mut rays[..];
+        for (grid, share) in &self.leaves.grids {
+            let (own, others) = rest.split_at_mut(grid.len());
+            rest = others;
+            if self.takes_moments(grid.map()) {
+                for (ray, moment) in own.iter_mut().zip(grid.moments()) {
+                    ray.moment = self.frame.to_world(moment) * *share;
+                }
+            } else {
+                for (ray, (_, cell)) in own.iter_mut().zip(grid.cells()) {
+                    ray.moment = at_direction(ray, cell.extent() * share, grid.map());
+                }
             }
         }
-    }
-
-    /// Those rays of a leaf that count for the estimate: the first ones, in the order of shooting, may not.
-    fn counted<'b>(&self, members: &'b [u32]) -> &'b [u32] {
-        &members[members.partition_point(|&ray| (ray as usize) < self.leaves.discarded)..]
-    }
-
-    fn has_one_ray_each(&self) -> bool {
-        self.leaves.expected.is_empty() && self.is_grid() && self.leaves.members().all(|members| members.len() == 1)
+        if self.leaves.grids.is_empty() {
+            for (cell, members) in self.leaves.cells.iter().zip(self.leaves.members()) {
+                let share = 1.0 / members.len() as f64;
+                let moment = self.frame.to_world(cell.vector_moment()) * share;
+                for &ray in members {
+                    let ray = &mut rays[ray as usize];
+                    ray.moment = if self.takes_moments(cell.map()) {
+                        moment
+                    } else {
+                        at_direction(ray, cell.extent() * share, cell.map())
+                    };
+                }
+            }
+        }
     }
 
     /// The light vector of weighed rays.
@@ -151,19 +166,14 @@ impl Weighing<'_> {
     /// Estimated variance of the luminance of the irradiance; infinite for a single ray.
     ///
     /// Leaf by leaf: its measure squared, times the scatter of the light per measure, over its number of rays. A leaf
-    /// with one ray has no scatter, and takes that of a second difference along its ring for it. Where the rays are those
-    /// of spirals, cell by cell as a [`Pilot`](super::Pilot) puts it.
+    /// with one ray has no scatter, and takes that of a second difference along its ring for it. Where a
+    /// pilot planned the rays, patch by patch as a [`Pilot`](super::Pilot) puts it.
     fn variance(&self, rays: &[Ray]) -> f64 {
         if rays.len() < 2 {
             return f64::INFINITY;
         }
-        if !self.leaves.expected.is_empty() {
-            let scatter = |(cell, members): (&Cell, &[u32])| {
-                let values = self.counted(members).iter().map(|&ray| luminance(rays[ray as usize].radiance));
-                Scatter::of(cell.projected_solid_angle(), values)
-            };
-            let cells: Vec<Scatter> = self.leaves.cells.iter().zip(self.leaves.members()).map(scatter).collect();
-            return squared_error(&cells);
+        if self.leaves.are_patches() {
+            return self.variance_of_patches(rays);
         }
         let normal = self.frame.normal();
         let y = |ray: u32| luminance(rays[ray as usize].radiance);
@@ -199,6 +209,20 @@ impl Weighing<'_> {
         });
         let variance: f64 = variance.sum();
         if self.in_step { variance * IN_STEP } else { variance }
+    }
+
+    /// Patch by patch, as a [`Pilot`](super::Pilot) puts it.
+    fn variance_of_patches(&self, rays: &[Ray]) -> f64 {
+        let grids = &self.leaves.grids;
+        let (first, share) = (grids[0].0.len(), grids[0].1);
+        let of_patch = |(cell, members): (&Cell, &[u32])| {
+            let early = members.partition_point(|&ray| (ray as usize) < first);
+            let counted = if share > 0.0 { members } else { &members[early..] };
+            let values = counted.iter().map(|&ray| luminance(rays[ray as usize].radiance));
+            let shares = [(share, early as f64), (1.0 - share, (members.len() - early) as f64)];
+            Scatter::of(cell.projected_solid_angle(), values).error(shares)
+        };
+        self.leaves.cells.iter().zip(self.leaves.members()).map(of_patch).sum()
     }
 
     /// Whether the leaves are the cells of the base grid.

@@ -46,6 +46,9 @@ pub trait Real: Number + Div<Output = Self> {
 
 /// Four numbers that are computed with together, each as it would be alone.
 pub trait Four<T>: Number {
+    /// The numbers as given.
+    fn new(numbers: [f64; 4]) -> Self;
+
     /// A vector, and 0.
     fn vector(v: &[f64; 3]) -> Self;
 
@@ -57,6 +60,9 @@ pub trait Four<T>: Number {
 
     /// The second, third, first and fourth number: of a vector (x, y, z) it is (y, z, x).
     fn turned(self) -> Self;
+
+    /// The fourth number of `before`, then the first three of these.
+    fn after(self, before: Self) -> Self;
 }
 
 /// The number `hi + lo`, with `hi` the double nearest to it.
@@ -150,6 +156,17 @@ impl<T: Number> Number for Plain<T> {
 }
 
 impl<T: Number> Four<T> for Plain<T> {
+    #[inline(always)]
+    fn new([x, y, z, w]: [f64; 4]) -> Self {
+        Self([T::constant(x), T::constant(y), T::constant(z), T::constant(w)])
+    }
+
+    #[inline(always)]
+    fn after(self, before: Self) -> Self {
+        let ([x, y, z, _], [.., w]) = (self.0, before.0);
+        Self([w, x, y, z])
+    }
+
     #[inline(always)]
     fn vector(v: &[f64; 3]) -> Self {
         Self([T::constant(v[0]), T::constant(v[1]), T::constant(v[2]), T::constant(0.0)])
@@ -287,7 +304,7 @@ pub fn three<U>(f: impl Fn(usize) -> U) -> [U; 3] {
 /// a·b, within a few u² of Σ |aᵢ bᵢ|; `hi` is near the sum, not always nearest to it.
 #[inline(always)]
 pub fn dot<T: Number>(a: [T; 3], b: [T; 3]) -> Double<T> {
-    total(three(|i| T::product(a[i], b[i])))
+    total([T::product(a[0], b[0]), T::product(a[1], b[1]), T::product(a[2], b[2])])
 }
 
 /// x + y + z, likewise.

@@ -36,6 +36,8 @@ pub enum SolidAngleError {
         /// Index of the first vertex of the first edge that it lies on.
         index: usize,
     },
+    /// The normal of the surface is not a unit vector.
+    NormalNotUnit,
     /// A coordinate of the eye is NaN or infinite.
     EyeNotFinite,
     /// The eye is at a vertex, which it sees in no direction.
@@ -77,6 +79,7 @@ impl fmt::Display for SolidAngleError {
             Self::ZeroOnBoundary { index } => {
                 write!(formatter, "the direction of winding number 0 lies on the edge from vertex {index}")
             }
+            Self::NormalNotUnit => write!(formatter, "the normal is not a unit vector"),
             Self::EyeNotFinite => write!(formatter, "the eye has a coordinate that is not finite"),
             Self::EyeAtVertex { index } => write!(formatter, "the eye is at vertex {index}"),
             Self::EyeOnEdge { index } => write!(formatter, "the eye lies on the edge from vertex {index}"),

@@ -40,9 +40,10 @@ use glam::DVec3;
 use super::argument::argument;
 use super::check::UNIT_TOLERANCE;
 use super::dispatch::{self, Kernel};
-use super::double::{Double, Real, dot, three};
+use super::double::{Double, Number, Real, dot, three};
 use super::exact;
 use super::kernel::{self, Complex, denominator, excess_of, numerator, times};
+use super::strands;
 
 /// Below this part of the two lengths the compensated numerator is not trusted: 2⁻⁴².
 pub(super) const NUMERATOR_FLOOR: f64 = 1.0 / (1_u64 << 42) as f64;
@@ -68,6 +69,27 @@ pub(super) struct Fan {
 }
 
 impl Fan {
+    /// The fan with the argument of its product.
+    #[inline(always)]
+    pub fn finished<T: Real>(mut self, Complex { re, mut im }: Complex<T>) -> Self {
+        let (x, y) = (re.hi.get().abs(), im.hi.get().abs());
+        if y <= NOISE * self.swept * (x + y) {
+            // From just above −π to π.
+            self.turns -= i64::from(re.hi.get() < 0.0 && im.hi.get() < 0.0);
+            im = Double::constant(0.0);
+        }
+        self.half = argument(re, im);
+        self
+    }
+
+    /// The product of what was multiplied so far and another factor, whose turns are counted.
+    #[inline(always)]
+    pub fn multiplied<T: Real>(&mut self, old: Complex<T>, factor: Complex<T>) -> Complex<T> {
+        let new = scaled(times(old, factor));
+        self.turns += turn(upper(old), upper(factor), upper(new));
+        new
+    }
+
     /// The signed solid angle before it is rounded.
     pub fn angle(&self) -> Double {
         self.half.twice()
@@ -102,89 +124,76 @@ struct Loop<'a> {
     checked: bool,
 }
 
-/// Numerators of neighbouring factors that are opposite to within this part may be an edge walked forth and back: 2⁻³⁸.
-const CONJUGATE: f64 = 1.0 / (1_u64 << 38) as f64;
-
 impl Kernel for Loop<'_> {
     type Output = Option<Fan>;
 
     #[inline(always)]
     fn run<T: Real>(self) -> Option<Fan> {
-        let [apex, first, rest @ ..] = self.vertices else { return Some(Fan::default()) };
-        let apex = Apex::<T>::new(apex.to_array());
-        let mut sum = Fan::default();
-        let mut product = None;
-        let mut b = Spoke::new(&apex, first.to_array());
-        let mut rest = rest.iter();
-        if !(self.checked || (surely_unit(apex.norm_error) && surely_unit(b.norm_error))) {
-            return None;
+        match strands::fan::<T>(self.vertices) {
+            None if self.checked => Some(one_after_another::<T>(self.vertices)),
+            fan => fan,
         }
-        let mut before = 0.0;
-        while let Some(c) = rest.next() {
-            let c = c.to_array();
-            let (factor, spoke) = if !self.checked {
-                let c = Spoke::new(&apex, c);
-                let factor = triangle(&apex, &b, &c)?;
-                let im = factor.im.hi.get();
-                if !surely_unit(c.norm_error) || (im + before).abs() <= CONJUGATE * im.abs() {
-                    return None;
-                }
-                before = im;
-                (factor, c)
-            } else if exact::antipodal(values(apex.v), c) {
-                // The next vertex is neither this one nor the apex: the loop was checked and pruned.
-                let Some(next) = rest.next() else { break };
-                let next = next.to_array();
-                (lune(&apex, values(b.v), next), Spoke::new(&apex, next))
-            } else {
-                let c = Spoke::new(&apex, c);
-                (triangle(&apex, &b, &c).unwrap_or_else(|| hard_triangle(&apex, &b, &c)), c)
-            };
-            sum.swept += slope(factor);
-            sum.factors += 1;
-            product = Some(match product {
-                None => factor,
-                Some(old) => {
-                    let new = scaled(times(old, factor));
-                    sum.turns += turn(upper(old), upper(factor), upper(new));
-                    new
-                }
-            });
-            b = spoke;
-        }
-        let Some(Complex { re, mut im }) = product else { return Some(Fan::default()) };
-        let (x, y) = (re.hi.get().abs(), im.hi.get().abs());
-        if y <= NOISE * sum.swept * (x + y) {
-            // From just above −π to π.
-            sum.turns -= i64::from(re.hi.get() < 0.0 && im.hi.get() < 0.0);
-            im = Double::constant(0.0);
-        }
-        sum.half = argument(re, im);
-        Some(sum)
     }
 }
 
+/// The fan of any loop that is checked and pruned, one triangle after another.
+#[inline(always)]
+fn one_after_another<T: Real>(vertices: &[DVec3]) -> Fan {
+    let [apex, first, rest @ ..] = vertices else { return Fan::default() };
+    let apex = Apex::<T>::new(apex.to_array());
+    let mut sum = Fan::default();
+    let mut product = None;
+    let mut b = Spoke::new(&apex, numbers(first.to_array()));
+    let mut rest = rest.iter();
+    while let Some(c) = rest.next() {
+        let c = c.to_array();
+        let (factor, spoke) = if exact::antipodal(values(apex.v), c) {
+            // The next vertex is neither this one nor the apex.
+            let Some(next) = rest.next() else { break };
+            let next = next.to_array();
+            (lune(&apex, values(b.v), next), Spoke::new(&apex, numbers(next)))
+        } else {
+            let c = Spoke::new(&apex, numbers(c));
+            (triangle(&apex, &b, &c), c)
+        };
+        sum.swept += slope(factor);
+        sum.factors += 1;
+        product = Some(match product {
+            None => factor,
+            Some(old) => sum.multiplied(old, factor),
+        });
+        b = spoke;
+    }
+    product.map_or_else(Fan::default, |product| sum.finished(product))
+}
+
 /// The vertex that all triangles share.
-struct Apex<T> {
-    v: [T; 3],
+pub(super) struct Apex<T> {
+    pub v: [T; 3],
     /// |v|² − 1.
-    norm_error: T,
+    pub norm_error: T,
     /// |v| − 1.
-    excess: T,
+    pub excess: T,
 }
 
 /// A vertex on the rim of the fan, with what two neighbouring triangles share.
 #[derive(Clone, Copy)]
-struct Spoke<T> {
-    v: [T; 3],
+pub(super) struct Spoke<T> {
+    pub v: [T; 3],
     /// |v|² − 1.
-    norm_error: T,
+    pub norm_error: T,
     /// |v| − 1.
-    excess: T,
+    pub excess: T,
     /// v − apex.
-    offset: [Double<T>; 3],
+    pub offset: [Double<T>; 3],
     /// v · apex.
-    cosine: Double<T>,
+    pub cosine: Double<T>,
+}
+
+/// A vector in the arithmetic.
+#[inline(always)]
+pub(super) fn numbers<T: Number>([x, y, z]: [f64; 3]) -> [T; 3] {
+    [T::constant(x), T::constant(y), T::constant(z)]
 }
 
 /// The plain numbers of a vector.
@@ -193,25 +202,18 @@ fn values<T: Real>(v: [T; 3]) -> [f64; 3] {
     three(|i| v[i].get())
 }
 
-/// |v| − 1 of a near-unit vector.
-#[inline(always)]
-pub(super) fn excess(v: [f64; 3]) -> f64 {
-    kernel::excess(v)
-}
-
-impl<T: Real> Apex<T> {
+impl<T: Number> Apex<T> {
     #[inline(always)]
-    fn new(v: [f64; 3]) -> Self {
-        let v = three(|i| T::constant(v[i]));
+    pub fn new(v: [f64; 3]) -> Self {
+        let v = numbers(v);
         let norm_error = kernel::norm_error(v);
         Self { v, norm_error, excess: excess_of(norm_error) }
     }
 }
 
-impl<T: Real> Spoke<T> {
+impl<T: Number> Spoke<T> {
     #[inline(always)]
-    fn new(apex: &Apex<T>, v: [f64; 3]) -> Self {
-        let v = three(|i| T::constant(v[i]));
+    pub fn new(apex: &Apex<T>, v: [T; 3]) -> Self {
         let norm_error = kernel::norm_error(v);
         let (offset, cosine) = (kernel::offset(apex.v, v), dot(apex.v, v));
         Self { v, norm_error, excess: excess_of(norm_error), offset, cosine }
@@ -243,7 +245,7 @@ fn turn(old: bool, factor: bool, new: bool) -> i64 {
 
 /// `z`, scaled by a power of two where it leaves the middle of the range.
 #[inline(always)]
-fn scaled<T: Real>(z: Complex<T>) -> Complex<T> {
+pub(super) fn scaled<T: Real>(z: Complex<T>) -> Complex<T> {
     let magnitude = z.re.hi.get().abs().max(z.im.hi.get().abs());
     if (FACTOR_FLOOR..=1.0 / FACTOR_FLOOR).contains(&magnitude) || magnitude == 0.0 {
         return z;
@@ -260,31 +262,15 @@ pub(super) fn surely_unit<T: Real>(norm_error: T) -> bool {
     norm_error.get().abs() <= UNIT_TOLERANCE * (1.0 - 1e-3)
 }
 
-/// The factor of the triangle `apex b c`; none where its numerator must be exact or an edge is nearly a half turn.
+/// The factor of the triangle `apex b c`.
 #[inline(always)]
-fn triangle<T: Real>(apex: &Apex<T>, b: &Spoke<T>, c: &Spoke<T>) -> Option<Complex<T>> {
-    let im = numerator(apex.v, &b.offset, &c.offset);
-    let re = denominator([b.cosine, dot(b.v, c.v), c.cosine], [apex.excess, b.excess, c.excess]);
-    let hard = is_small(im, &b.offset, &c.offset) || re.hi.get().abs() + im.hi.get().abs() < FACTOR_FLOOR;
-    if hard { None } else { Some(Complex { re, im }) }
-}
-
-/// Whether a numerator is too small against the lengths of the two differences.
-#[inline(always)]
-fn is_small<T: Real>(im: Double<T>, p: &[Double<T>; 3], q: &[Double<T>; 3]) -> bool {
+fn triangle<T: Real>(apex: &Apex<T>, b: &Spoke<T>, c: &Spoke<T>) -> Complex<T> {
+    let mut im = numerator(apex.v, &b.offset, &c.offset);
     let length = |p: &[Double<T>; 3]| {
         let [x, y, z] = three(|i| p[i].hi.get().abs());
         x.max(y).max(z)
     };
-    im.hi.get().abs() <= NUMERATOR_FLOOR * length(p) * length(q)
-}
-
-/// The factor of a triangle that `triangle` leaves.
-#[cold]
-#[inline(never)]
-fn hard_triangle<T: Real>(apex: &Apex<T>, b: &Spoke<T>, c: &Spoke<T>) -> Complex<T> {
-    let mut im = numerator(apex.v, &b.offset, &c.offset);
-    if is_small(im, &b.offset, &c.offset) {
+    if im.hi.get().abs() <= NUMERATOR_FLOOR * length(&b.offset) * length(&c.offset) {
         im = exact::determinant(values(apex.v), values(b.v), values(c.v)).cast();
     }
     let re = denominator([b.cosine, dot(b.v, c.v), c.cosine], [apex.excess, b.excess, c.excess]);
@@ -341,14 +327,14 @@ mod tests {
 
     use glam::DVec3;
 
+    use super::super::kernel::excess;
     #[cfg(target_arch = "x86_64")]
     use super::super::{
         dispatch::{Fused, Kernel, has_registers},
         double::{Number, Real},
         triangle::Triangle,
     };
-    use super::{Fan, excess, fan};
-    #[cfg(target_arch = "x86_64")]
+    use super::{Fan, fan, one_after_another, strands};
     #[cfg(target_arch = "x86_64")]
     use super::{Loop, unchecked};
 

@@ -85,7 +85,7 @@ pub fn vector_moment(vertices: &[DVec3]) -> DVec3 {
         let normal = a.cross(if cosine < 0.0 { a + b } else { b - a });
         if cosine > SHORT_COSINE {
             let square = normal.length_squared();
-            sum += normal * (1.0 + bulge_of_edge::<12>(0.5 * square / (1.0 + cosine)));
+            sum += normal * (1.0 + bulge_of_edge::<f64, 12>(0.5 * square / (1.0 + cosine)));
         } else {
             let sine = normal.length();
             if sine > 0.0 {

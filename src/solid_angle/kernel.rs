@@ -3,7 +3,7 @@
 //! Generic over the number, and dependent on nothing but double length: the proofs of docs/proofs are written by running
 //! these very functions on numbers that record what is done to them.
 
-use super::double::{Double, Number, dot, three, total};
+use super::double::{Double, Number, dot, total};
 
 /// u² = 2⁻¹⁰⁶.
 const U2: f64 = 0.25 * f64::EPSILON * f64::EPSILON;
@@ -54,14 +54,17 @@ pub fn norm_error<T: Number>(v: [T; 3]) -> T {
 /// v − a, exactly.
 #[inline(always)]
 pub fn offset<T: Number>(a: [T; 3], v: [T; 3]) -> [Double<T>; 3] {
-    three(|i| Double::difference(v[i], a[i]))
+    [Double::difference(v[0], a[0]), Double::difference(v[1], a[1]), Double::difference(v[2], a[2])]
 }
 
 /// apex·(p×q).
 #[inline(always)]
 pub fn numerator<T: Number>(apex: [T; 3], p: &[Double<T>; 3], q: &[Double<T>; 3]) -> Double<T> {
-    let minors = [minor(p[1], p[2], q[1], q[2]), minor(p[2], p[0], q[2], q[0]), minor(p[0], p[1], q[0], q[1])];
-    volume(three(|i| T::product(apex[i], minors[i].hi)), three(|i| apex[i] * minors[i].lo))
+    let x = minor(p[1], p[2], q[1], q[2]);
+    let y = minor(p[2], p[0], q[2], q[0]);
+    let z = minor(p[0], p[1], q[0], q[1]);
+    let heads = [T::product(apex[0], x.hi), T::product(apex[1], y.hi), T::product(apex[2], z.hi)];
+    volume(heads, [apex[0] * x.lo, apex[1] * y.lo, apex[2] * z.lo])
 }
 
 /// A component p q′ − p′ q of a product of two vectors, its low half not normalised.

@@ -11,12 +11,14 @@
 //! ```
 //!
 //! the first sum is as small as the area, and is taken in double length from differences of unit vectors; the terms of the
-//! second are as small as θₑ³.
+//! second are as small as θₑ³. They are in double length too, but for those of edges below 0.063 rad.
 //!
 //! # Accuracy
 //!
-//! With E = ½ Σ wₑ, wₑ = |θₑ − sin θₑ| for edges up to 0.927 rad and θₑ for longer ones, the `f64` of the second sum costs
-//! a few u E. Where E exceeds |M| (needles, slivers, long thin bands) the second sum is repeated in double length.
+//! u = 2⁻⁵³. Along with the sums goes a bound on what they may be off: a few u of the short edges' θₑ³/6, 2⁻⁶⁰ of the long
+//! edges' θₑ, 2⁻¹⁰³ of the perimeter for the norms, and 2⁻¹⁰² of Σ |a − v₀||b − v₀|. Where that exceeds a sixteenth of
+//! u |M| (needles, slivers, figures of eight, polygons of a few units in the last place) all is repeated as in
+//! `contour.rs`.
 //!
 //! # Source
 //!
@@ -25,75 +27,157 @@
 
 use glam::DVec3;
 
-use super::double::{Double, dot};
-use super::exact;
-use super::fan::{deficit, excess};
-use crate::float;
+use super::argument::argument;
+use super::contour::{self, Vector};
+use super::dispatch::{self, Kernel};
+use super::double::{Double, Number, Real, dot, three};
+use super::kernel;
 
-/// How many times the moment E may be before the second sum is repeated in double length.
-const CANCELLATION: f64 = 1.0;
+/// The sums are repeated where their doubt exceeds this part of the result: u/16.
+const TOLERANCE: f64 = f64::EPSILON / 32.0;
 
-/// Edges with a larger cosine are short, below 0.377 rad: 12 powers of at most 0.035 are enough.
+/// Edges with a larger cosine are below 0.377 rad: 12 powers of at most 0.035 are enough.
 pub(super) const SHORT_COSINE: f64 = 0.93;
 
-/// Edges with a larger cosine are below 0.927 rad: 24 powers of at most 0.2 are enough.
-const MIDDLE_COSINE: f64 = 0.6;
+/// Edges with a larger cosine are below 0.01 rad: 4 powers of at most 2.5e-5 are enough.
+const PLAIN_COSINE: f64 = 0.999_95;
 
-/// Sums of unit vectors shorter than this belong to an edge that is nearly a half turn: 2⁻²⁰.
-const NEAR_ANTIPODAL: f64 = 1.0 / (1_u64 << 20) as f64;
-
-/// A vertex of the loop and |v| − 1.
-#[derive(Clone, Copy)]
-struct Corner {
-    v: DVec3,
-    excess: f64,
-}
+/// 2/3 and 8/15 in double length.
+const TWO_THIRDS: (f64, f64) = (2.0 / 3.0, 3.700_743_415_417_188e-17);
+const EIGHT_FIFTEENTHS: (f64, f64) = (8.0 / 15.0, 7.401_486_830_834_377e-18);
 
 /// The moment of a loop without whiskers; any loop of fewer than three vertices has none.
 pub(super) fn vector_moment(vertices: &[DVec3]) -> DVec3 {
-    let [apex, ..] = vertices else { return DVec3::ZERO };
-    let apex = Corner::new(*apex);
-    let mut flat = [Double::default(); 3];
-    let mut bulge = [Double::default(); 3];
-    let mut doubt = 0.0;
-    let mut corner = apex;
-    let mut offset = [Double::default(); 3];
-    for &vertex in vertices[1..].iter().chain([&apex.v]) {
-        let next = Corner::new(vertex);
-        let next_offset = offset_from(apex, next);
-        accumulate(&mut flat, cross(&offset, &next_offset));
-        let (rise, weight) = arc(corner, next);
-        accumulate(&mut bulge, rise.to_array().map(Double::from));
-        doubt += weight;
-        (corner, offset) = (next, next_offset);
-    }
-    let twice = |bulge: [Double; 3]| DVec3::from_array([0, 1, 2].map(|i| (flat[i] + bulge[i]).value()));
-    let moment = twice(bulge);
-    0.5 * if doubt <= CANCELLATION * moment.length() { moment } else { twice(long_bulge(vertices)) }
+    let largest = |m: &Vector| m.iter().fold(0.0, |size: f64, x| size.max(x.hi.abs()));
+    let (moment, scale) = twice_moment(vertices, largest);
+    DVec3::from_array(moment.map(|x| 0.5 * (x.value() / scale) / scale))
 }
 
-impl Corner {
-    fn new(v: DVec3) -> Self {
-        Self { v, excess: excess(v.to_array()) }
+/// Twice the moment before it is rounded, and the power of two whose square it has to be divided by.
+///
+/// It is off by `TOLERANCE` of its `size`, or as in `contour.rs`.
+pub(super) fn twice_moment(vertices: &[DVec3], size: impl Fn(&Vector) -> f64) -> (Vector, f64) {
+    let Sum { moment, doubt } = dispatch::run(Loop(vertices));
+    if doubt <= TOLERANCE * size(&moment) { (moment, 1.0) } else { contour::twice_moment(vertices) }
+}
+
+/// Twice a moment, and a bound on its error.
+struct Sum {
+    moment: Vector,
+    doubt: f64,
+}
+
+struct Loop<'a>(&'a [DVec3]);
+
+impl Kernel for Loop<'_> {
+    type Output = Sum;
+
+    #[inline(always)]
+    fn run<T: Real>(self) -> Sum {
+        let zero = Double::constant(0.0);
+        let mut sum = [zero; 3];
+        let mut doubt = Doubt::default();
+        let [apex, ..] = self.0 else { return Sum { moment: Vector::default(), doubt: 0.0 } };
+        let apex = Corner::<T>::new(apex.to_array());
+        let (mut corner, mut offset) = (apex, [zero; 3]);
+        for i in 1..=self.0.len() {
+            let next = if i < self.0.len() { Corner::new(self.0[i].to_array()) } else { apex };
+            let next_offset = offset_from(&apex, &next);
+            accumulate(&mut sum, cross(&offset, &next_offset));
+            doubt.reach += length(heads(&offset)) * length(heads(&next_offset));
+            let difference = three(|i| next.v[i] - corner.v[i]);
+            let cosine = plain_dot(corner.v, next.v).get();
+            if cosine > PLAIN_COSINE {
+                let rise = plain_rise(&corner, &next, difference);
+                accumulate(&mut sum, three(|i| Double { hi: rise[i], lo: T::constant(0.0) }));
+                doubt.plain += length(rise);
+                doubt.perimeter += length(difference);
+            } else if cosine > SHORT_COSINE {
+                let rise = short_rise(&corner, &next);
+                accumulate(&mut sum, rise);
+                doubt.short += length(heads(&rise));
+                doubt.perimeter += length(difference);
+            } else {
+                accumulate(&mut sum, long_rise(&corner, &next));
+                doubt.long += 1.0;
+            }
+            (corner, offset) = (next, next_offset);
+        }
+        Sum { moment: three(|i| sum[i].cast()), doubt: doubt.bound() }
     }
+}
+
+/// What the error of the sums is in proportion to.
+#[derive(Default)]
+struct Doubt {
+    /// Σ |a − v₀| |b − v₀|.
+    reach: f64,
+    /// Length of the plain and the short edges.
+    perimeter: f64,
+    /// Σ |θ − sin θ| of the plain edges.
+    plain: f64,
+    /// Σ |θ − sin θ| of the short edges.
+    short: f64,
+    /// Number of the long edges.
+    long: f64,
+}
+
+impl Doubt {
+    #[inline(always)]
+    fn bound(&self) -> f64 {
+        let unit = 0.5 * f64::EPSILON;
+        let flat = unit * unit * (8.0 * (self.perimeter + 3.0 * self.long) + 16.0 * self.reach);
+        flat + unit * (6.0 * self.plain + self.short / 256.0 + self.long / 1024.0)
+    }
+}
+
+/// A vertex of the loop and |v| − 1.
+#[derive(Clone, Copy)]
+struct Corner<T> {
+    v: [T; 3],
+    excess: T,
+}
+
+impl<T: Real> Corner<T> {
+    #[inline(always)]
+    fn new(v: [f64; 3]) -> Self {
+        let v = three(|i| T::constant(v[i]));
+        Self { v, excess: kernel::excess(v) }
+    }
+}
+
+/// Sum of the components' magnitudes: the length or up to √3 of it.
+#[inline(always)]
+fn length<T: Real>(v: [T; 3]) -> f64 {
+    v[0].get().abs() + v[1].get().abs() + v[2].get().abs()
+}
+
+#[inline(always)]
+fn heads<T: Real>(v: &[Double<T>; 3]) -> [T; 3] {
+    three(|i| v[i].hi)
+}
+
+#[inline(always)]
+fn plain_dot<T: Real>(a: [T; 3], b: [T; 3]) -> T {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// Adds `term` to a sum whose low part is not normalised, within u² of the partial sums.
 #[inline(always)]
-fn accumulate(sum: &mut [Double; 3], term: [Double; 3]) {
-    for (sum, term) in sum.iter_mut().zip(term) {
-        let s = Double::sum(sum.hi, term.hi);
-        *sum = Double { hi: s.hi, lo: sum.lo + (s.lo + term.lo) };
-    }
+fn accumulate<T: Real>(sum: &mut [Double<T>; 3], term: [Double<T>; 3]) {
+    *sum = three(|i| {
+        let s = Double::sum(sum[i].hi, term[i].hi);
+        Double { hi: s.hi, lo: sum[i].lo + (s.lo + term[i].lo) }
+    });
 }
 
 /// v/|v| − a/|a|.
 #[inline(always)]
-fn offset_from(a: Corner, v: Corner) -> [Double; 3] {
+fn offset_from<T: Real>(a: &Corner<T>, v: &Corner<T>) -> [Double<T>; 3] {
     // 1/(1 + e) − 1 to second order; e is at most 2⁻⁴¹.
-    let deficit = |corner: Corner| corner.excess * (corner.excess - 1.0);
-    let (p, q) = (deficit(a), deficit(v));
-    [0, 1, 2].map(|i| {
+    let deficit = |e: T| e * (e - T::constant(1.0));
+    let (p, q) = (deficit(a.excess), deficit(v.excess));
+    three(|i| {
         let difference = Double::difference(v.v[i], a.v[i]);
         Double::sum(difference.hi, difference.lo + (q * v.v[i] - p * a.v[i]))
     })
@@ -101,77 +185,146 @@ fn offset_from(a: Corner, v: Corner) -> [Double; 3] {
 
 /// p×q, within a few u² of |p| |q|.
 #[inline(always)]
-fn cross(p: &[Double; 3], q: &[Double; 3]) -> [Double; 3] {
-    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| Double::pair(p[i], q[j], -p[j], q[i]))
+fn cross<T: Real>(p: &[Double<T>; 3], q: &[Double<T>; 3]) -> [Double<T>; 3] {
+    let minor = |i: usize, j: usize| Double::pair(p[i], q[j], -p[j], q[i]);
+    [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
 
-/// n̂ (θ − sin θ) of the edge from `a` to `b`, and its weight in E.
-fn arc(a: Corner, b: Corner) -> (DVec3, f64) {
-    let norms = 1.0 - (a.excess + b.excess);
-    let cosine = a.v.dot(b.v) * norms;
-    let side = if cosine < 0.0 { a.v + b.v } else { b.v - a.v };
-    let normal = if cosine < 0.0 && side.abs().max_element() < NEAR_ANTIPODAL {
-        DVec3::from_array(exact::cross(a.v.to_array(), b.v.to_array()).map(Double::value))
-    } else {
-        a.v.cross(side)
-    };
-    let length = normal.length();
-    let sine = length * norms;
-    if cosine > MIDDLE_COSINE {
-        let half = 0.5 * sine * sine / (1.0 + cosine); // sin² θ/2
-        let bulge = if cosine > SHORT_COSINE { bulge_of_edge::<12>(half) } else { bulge_of_edge::<24>(half) };
-        (normal * (norms * bulge), length * bulge)
-    } else if length > 0.0 {
-        let angle = float::atan2(sine, cosine);
-        (normal * ((angle - sine) / length), angle)
-    } else {
-        (DVec3::ZERO, 0.0)
+/// n̂ (θ − sin θ) of a plain edge, within a few u of itself.
+#[inline(always)]
+fn plain_rise<T: Real>(a: &Corner<T>, b: &Corner<T>, d: [T; 3]) -> [T; 3] {
+    let c = T::constant;
+    let norms = c(1.0) - (a.excess + b.excess);
+    // sin² θ/2: the square of the chord without what lies along the radius.
+    let radial = b.excess - a.excess;
+    let half = c(0.25) * norms * (plain_dot(d, d) - radial * radial);
+    let factor = norms * bulge_of_edge::<T, 4>(half);
+    let minor = |i: usize, j: usize| factor * (a.v[i] * d[j] - a.v[j] * d[i]);
+    [minor(1, 2), minor(2, 0), minor(0, 1)]
+}
+
+/// n̂ (θ − sin θ) of a short edge, within u/256 of itself.
+#[inline(always)]
+fn short_rise<T: Real>(a: &Corner<T>, b: &Corner<T>) -> [Double<T>; 3] {
+    let d = kernel::offset(a.v, b.v);
+    let normal = normal(a, &d);
+    let deficit = -(a.excess + b.excess);
+    let chord = square(&d);
+    let h = plus(chord, Double { hi: chord.hi * deficit, lo: T::constant(0.0) }).times(0.25);
+    // The first two terms of the series, 2/3 h + 8/15 h², in double length, and the others behind them.
+    let rest = h.hi * series::<T, 3, 12>(h.hi);
+    let inner = plus(constant(EIGHT_FIFTEENTHS), Double { hi: rest, lo: T::constant(0.0) });
+    let factor = h * plus(constant(TWO_THIRDS), h * inner);
+    let factor = plus(factor, Double { hi: factor.hi * deficit, lo: T::constant(0.0) });
+    three(|i| normal[i] * factor)
+}
+
+/// n̂ (θ − sin θ) of any edge, within 2⁻⁶³ of θ.
+#[inline(always)]
+fn long_rise<T: Real>(a: &Corner<T>, b: &Corner<T>) -> [Double<T>; 3] {
+    let cosine = dot(a.v, b.v);
+    // a×b = a×(b ± a): exact sums, which are small where the product is.
+    let behind = T::constant(if cosine.hi.get() < 0.0 { 1.0 } else { -1.0 });
+    let normal = normal(a, &three(|i| Double::sum(b.v[i], behind * a.v[i])));
+    let length = root(square(&normal));
+    let angle = argument(cosine, length).cast();
+    let sine = plus(length, Double { hi: -(length.hi * (a.excess + b.excess)), lo: T::constant(0.0) });
+    let factor = (angle - sine) / length;
+    three(|i| normal[i] * factor)
+}
+
+#[inline(always)]
+fn constant<T: Real>((hi, lo): (f64, f64)) -> Double<T> {
+    Double { hi: T::constant(hi), lo: T::constant(lo) }
+}
+
+/// a×side.
+#[inline(always)]
+fn normal<T: Real>(a: &Corner<T>, side: &[Double<T>; 3]) -> [Double<T>; 3] {
+    cross(&three(|i| Double { hi: a.v[i], lo: T::constant(0.0) }), side)
+}
+
+/// |v|².
+#[inline(always)]
+fn square<T: Real>(v: &[Double<T>; 3]) -> Double<T> {
+    let heads = heads(v);
+    let square = dot(heads, heads);
+    let cross = heads[0] * v[0].lo + heads[1] * v[1].lo + heads[2] * v[2].lo;
+    Double { hi: square.hi, lo: square.lo + (cross + cross) }
+}
+
+/// a + b where |a| is not small against |b|, or both are of one sign; not normalised.
+#[inline(always)]
+fn plus<T: Real>(a: Double<T>, b: Double<T>) -> Double<T> {
+    let sum = T::sum(a.hi, b.hi);
+    Double { hi: sum.hi, lo: sum.lo + (a.lo + b.lo) }
+}
+
+/// The square root of a number > 0.
+#[inline(always)]
+fn root<T: Real>(x: Double<T>) -> Double<T> {
+    let root = T::constant(x.hi.get().sqrt());
+    let square = T::product(root, root);
+    Double::sum(root, ((x.hi - square.hi) - square.lo + x.lo) / (root + root))
+}
+
+/// Π 2j/(2j + 1), j from 1 to k: the coefficient of h^k in θ/sin θ, h = sin² θ/2.
+const SERIES: [f64; 25] = {
+    let mut series = [1.0; 25];
+    let mut k = 1;
+    while k < 25 {
+        series[k] = series[k - 1] * (2 * k) as f64 / (2 * k + 1) as f64;
+        k += 1;
     }
+    series
+};
+
+/// θ/sin θ − 1 from h = sin² θ/2, cut after `TERMS` powers.
+#[inline(always)]
+pub(super) fn bulge_of_edge<T: Number, const TERMS: usize>(h: T) -> T {
+    h * series::<T, 1, TERMS>(h)
 }
 
-/// θ/sin θ − 1 from h = sin² θ/2: Σ h^k Π 2j/(2j + 1), j from 1 to k, cut after `TERMS` powers.
-pub(super) fn bulge_of_edge<const TERMS: usize>(h: f64) -> f64 {
-    (1..=TERMS).rev().map(|j| (2 * j) as f64 / (2 * j + 1) as f64).fold(0.0, |sum, ratio| (1.0 + sum) * (ratio * h))
-}
-
-/// Σ n̂ₑ (θₑ − sin θₑ) in double length.
-#[cold]
-#[inline(never)]
-fn long_bulge(vertices: &[DVec3]) -> [Double; 3] {
-    let mut sum = [Double::default(); 3];
-    let Some(last) = vertices.last() else { return sum };
-    let mut a = last.to_array();
-    let mut deficit_a = deficit(a);
-    for vertex in vertices {
-        let b = vertex.to_array();
-        let deficit_b = deficit(b);
-        let normal = exact::cross(a, b);
-        let length = (normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]).sqrt();
-        if length.hi > 0.0 {
-            let angle = super::argument::long_argument(dot(a, b) + Double::default(), length);
-            let sine = length + length * (deficit_a + deficit_b + deficit_a * deficit_b);
-            let factor = (angle - sine) / length;
-            accumulate(&mut sum, normal.map(|x| x * factor));
-        }
-        (a, deficit_a) = (b, deficit_b);
+/// The terms from h^FIRST to h^LAST of θ/sin θ, divided by h^FIRST.
+#[inline(always)]
+fn series<T: Number, const FIRST: usize, const LAST: usize>(h: T) -> T {
+    let mut sum = T::constant(SERIES[LAST]);
+    let mut k = LAST;
+    while k > FIRST {
+        k -= 1;
+        sum = T::constant(SERIES[k]) + h * sum;
     }
     sum
 }
 
 #[cfg(test)]
 mod tests {
-    use super::bulge_of_edge;
+    use super::super::contour;
+    use super::super::double::Double;
+    use super::{EIGHT_FIFTEENTHS, TWO_THIRDS, bulge_of_edge};
     use crate::float;
 
     #[test]
     fn edges_bulge_as_their_angle_says() {
-        for angle in [0.92_f64, 0.37, 0.1, 1e-2] {
+        for angle in [0.92_f64, 0.37, 0.1, 0.06, 1e-2] {
             let half = float::sin(0.5 * angle);
             let want = angle / float::sin(angle) - 1.0;
-            let got = bulge_of_edge::<24>(half * half);
+            let h = half * half;
+            let got = bulge_of_edge::<f64, 24>(h);
             assert!((got - want).abs() <= 2.0 * f64::EPSILON, "θ {angle}: {got} against {want}");
+            let long = contour::bulge(Double::from(float::sin(angle)), Double::from(float::cos(angle)));
+            let want = float::sin(angle) * want;
+            assert!((long.value() - want).abs() <= 2.0 * f64::EPSILON, "θ {angle}: {long:?} against {want}");
         }
-        let h = 0.035;
-        assert!((bulge_of_edge::<12>(h) - bulge_of_edge::<24>(h)).abs() <= f64::EPSILON * h);
+        assert!((bulge_of_edge::<f64, 12>(0.035) - bulge_of_edge::<f64, 24>(0.035)).abs() <= f64::EPSILON * 0.035);
+        assert!((bulge_of_edge::<f64, 4>(2.5e-5) - bulge_of_edge::<f64, 24>(2.5e-5)).abs() <= f64::EPSILON * 2.5e-5);
+    }
+
+    #[test]
+    fn fractions_are_in_double_length() {
+        for ((hi, lo), n, m) in [(TWO_THIRDS, 2.0, 3.0), (EIGHT_FIFTEENTHS, 8.0, 15.0)] {
+            let fraction = Double::from(n) / Double::from(m);
+            assert_eq!((hi, lo), (fraction.hi, fraction.lo));
+        }
     }
 }

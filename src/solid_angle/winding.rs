@@ -60,17 +60,21 @@ pub fn winding(vertices: &[DVec3], zero: DVec3) -> Result<f64, SolidAngleError> 
     if !(zero.length_squared() - 1.0).abs().le(&UNIT_TOLERANCE) {
         return Err(SolidAngleError::ZeroNotUnit);
     }
-    let angles = measured(vertices, |pruned| {
-        let around: Vec<_> = [-zero].iter().chain(pruned).chain(pruned.first()).copied().collect();
-        (fan::fan(pruned).angle(), fan::fan(&around))
-    });
-    let (angle, around) = angles?;
+    let (angle, turns) = measured(vertices, |pruned| turns(pruned, -zero))?;
     let n = vertices.len();
     if let Some(index) = (0..n).find(|&i| on_arc(zero, vertices[i], vertices[(i + 1) % n])) {
         return Err(SolidAngleError::ZeroOnBoundary { index });
     }
-    let turns = around.turns as f64 + ((around.signed() - angle.hi) / FOUR_PI.hi).round();
     Ok(if turns == 0.0 { angle.value() } else { (FOUR_PI * turns + angle).value() })
+}
+
+/// The signed solid angle, and how many spheres the sum of the triangles apex, vᵢ, vᵢ₊₁ is ahead of it.
+///
+/// An edge exactly through the opposite of the apex counts as if that were on its left.
+pub(super) fn turns(pruned: &[DVec3], apex: DVec3) -> (Double, f64) {
+    let around: Vec<_> = [apex].iter().chain(pruned).chain(pruned.first()).copied().collect();
+    let (angle, around) = (fan::fan(pruned).angle(), fan::fan(&around));
+    (angle, around.turns as f64 + ((around.signed() - angle.hi) / FOUR_PI.hi).round())
 }
 
 /// Whether `point` lies exactly on the shorter arc from `a` to `b`, ends included.

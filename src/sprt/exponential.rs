@@ -1,8 +1,9 @@
 //! Waiting times: two simple hypotheses about the rate of exponential observations.
 
-use super::Family;
 use super::bernoulli::{exact, ln_quotient};
 use super::compensated::Sum;
+use super::rates::Rates;
+use super::{Family, RateError};
 
 /// A rate of `rate0` (H0) against `rate1` (H1) of exponential observations, whose mean is the inverse of the rate.
 ///
@@ -29,15 +30,10 @@ use super::compensated::Sum;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(try_from = "Stored", into = "Stored")
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "Rates", into = "Rates"))]
 #[must_use]
 pub struct Exponential {
-    rate0: f64,
-    rate1: f64,
+    rates: Rates,
     observation: f64,
 }
 
@@ -45,8 +41,8 @@ impl Exponential {
     /// H0: a rate of `rate0` against H1: `rate1`; either may be the larger.
     ///
     /// # Errors
-    /// [`ExponentialError::Rate0`] and [`ExponentialError::Rate1`] unless positive and finite (NaN fails);
-    /// [`ExponentialError::Equal`] if both are the same double.
+    /// [`RateError::Rate0`] and [`RateError::Rate1`] unless positive and finite (NaN fails);
+    /// [`RateError::Equal`] if both are the same double.
     ///
     /// # Examples
     /// ```
@@ -55,31 +51,27 @@ impl Exponential {
     /// let family = Exponential::new(1.0, 2.0)?;
     /// assert_eq!((family.rate0(), family.rate1()), (1.0, 2.0));
     /// assert!(Exponential::new(1.0, 0.0).is_err());
-    /// # Ok::<(), steradian::sprt::ExponentialError>(())
+    /// # Ok::<(), steradian::sprt::RateError>(())
     /// ```
-    pub fn new(rate0: f64, rate1: f64) -> Result<Self, ExponentialError> {
-        if !(rate0 > 0.0 && rate0 < f64::INFINITY) {
-            return Err(ExponentialError::Rate0 { rate0 });
-        }
-        if !(rate1 > 0.0 && rate1 < f64::INFINITY) {
-            return Err(ExponentialError::Rate1 { rate1 });
-        }
-        if rate0 == rate1 {
-            return Err(ExponentialError::Equal { rate: rate0 });
-        }
-        Ok(Self { rate0, rate1, observation: ln_quotient(rate1, rate0, rate1 - rate0) })
+    pub fn new(rate0: f64, rate1: f64) -> Result<Self, RateError> {
+        Self::of(Rates { rate0, rate1 })
+    }
+
+    fn of(rates: Rates) -> Result<Self, RateError> {
+        let Rates { rate0, rate1 } = rates.checked()?;
+        Ok(Self { rates, observation: ln_quotient(rate1, rate0, rate1 - rate0) })
     }
 
     /// Rate under H0.
     #[must_use]
     pub const fn rate0(&self) -> f64 {
-        self.rate0
+        self.rates.rate0
     }
 
     /// Rate under H1.
     #[must_use]
     pub const fn rate1(&self) -> f64 {
-        self.rate1
+        self.rates.rate1
     }
 
     /// `ln(λ₁/λ₀)`, what one observation adds to the logarithm of the ratio, whatever its length.
@@ -91,7 +83,7 @@ impl Exponential {
     /// `λ₀ − λ₁`, what a unit of time adds to the logarithm of the ratio.
     #[must_use]
     pub fn time_increment(&self) -> f64 {
-        self.rate0 - self.rate1
+        self.rates.rate0 - self.rates.rate1
     }
 }
 
@@ -119,80 +111,30 @@ impl Family for Exponential {
     }
 
     fn parameters(&self) -> [f64; 4] {
-        [4.0, self.rate0, self.rate1, 0.0]
+        [4.0, self.rates.rate0, self.rates.rate1, 0.0]
     }
 }
 
-/// The two hypotheses as they are stored.
 #[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
-struct Stored {
-    rate0: f64,
-    rate1: f64,
-}
-
-#[cfg(feature = "serde")]
-impl From<Exponential> for Stored {
+impl From<Exponential> for Rates {
     fn from(family: Exponential) -> Self {
-        Self { rate0: family.rate0, rate1: family.rate1 }
+        family.rates
     }
 }
 
 #[cfg(feature = "serde")]
-impl TryFrom<Stored> for Exponential {
-    type Error = ExponentialError;
+impl TryFrom<Rates> for Exponential {
+    type Error = RateError;
 
-    fn try_from(stored: Stored) -> Result<Self, ExponentialError> {
-        Self::new(stored.rate0, stored.rate1)
+    fn try_from(rates: Rates) -> Result<Self, RateError> {
+        Self::of(rates)
     }
 }
-
-/// Why two numbers are not a pair of hypotheses.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum ExponentialError {
-    /// `rate0` is not positive and finite.
-    Rate0 {
-        /// The value given.
-        rate0: f64,
-    },
-    /// `rate1` is not positive and finite.
-    Rate1 {
-        /// The value given.
-        rate1: f64,
-    },
-    /// Both hypotheses are the same.
-    Equal {
-        /// The value given twice.
-        rate: f64,
-    },
-}
-
-impl core::fmt::Display for ExponentialError {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            Self::Rate0 { rate0 } => write!(f, "rate0 must be positive and finite, got {rate0}"),
-            Self::Rate1 { rate1 } => write!(f, "rate1 must be positive and finite, got {rate1}"),
-            Self::Equal { rate } => write!(f, "the hypotheses must differ, got {rate} twice"),
-        }
-    }
-}
-
-impl core::error::Error for ExponentialError {}
 
 #[cfg(test)]
 mod tests {
     use super::super::{Bounds, Sprt, Step};
     use super::*;
-
-    #[test]
-    fn what_is_not_a_rate_is_refused() {
-        for bad in [f64::NAN, f64::INFINITY, -1.0, 0.0] {
-            assert!(matches!(Exponential::new(bad, 0.3), Err(ExponentialError::Rate0 { .. })));
-            assert!(matches!(Exponential::new(0.1, bad), Err(ExponentialError::Rate1 { .. })));
-        }
-        assert_eq!(Exponential::new(3.0, 3.0), Err(ExponentialError::Equal { rate: 3.0 }));
-    }
 
     #[test]
     fn a_run_with_an_observation_that_is_no_time_never_decides() -> Result<(), Box<dyn core::error::Error>> {

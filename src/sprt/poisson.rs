@@ -1,7 +1,8 @@
 //! Counts of events: two simple hypotheses about the mean count of an observation.
 
 use super::bernoulli::{Increment, exact, ln_quotient};
-use super::{Bounds, Decision, Family};
+use super::rates::Rates;
+use super::{Bounds, Decision, Family, RateError};
 
 const EPS: f64 = f64::EPSILON;
 
@@ -33,15 +34,10 @@ const LARGEST: u64 = i64::MAX as u64;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(try_from = "Stored", into = "Stored")
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "Rates", into = "Rates"))]
 #[must_use]
 pub struct Poisson {
-    rate0: f64,
-    rate1: f64,
+    rates: Rates,
     event: Increment,
     observation: Increment,
 }
@@ -50,8 +46,8 @@ impl Poisson {
     /// H0: a mean count of `rate0` against H1: `rate1`; either may be the larger.
     ///
     /// # Errors
-    /// [`PoissonError::Rate0`] and [`PoissonError::Rate1`] unless positive and finite (NaN fails);
-    /// [`PoissonError::Equal`] if both are the same double.
+    /// [`RateError::Rate0`] and [`RateError::Rate1`] unless positive and finite (NaN fails);
+    /// [`RateError::Equal`] if both are the same double.
     ///
     /// # Examples
     /// ```
@@ -60,23 +56,18 @@ impl Poisson {
     /// let family = Poisson::new(1.0, 2.0)?;
     /// assert_eq!((family.rate0(), family.rate1()), (1.0, 2.0));
     /// assert!(Poisson::new(1.0, 0.0).is_err());
-    /// # Ok::<(), steradian::sprt::PoissonError>(())
+    /// # Ok::<(), steradian::sprt::RateError>(())
     /// ```
-    pub fn new(rate0: f64, rate1: f64) -> Result<Self, PoissonError> {
-        if !(rate0 > 0.0 && rate0 < f64::INFINITY) {
-            return Err(PoissonError::Rate0 { rate0 });
-        }
-        if !(rate1 > 0.0 && rate1 < f64::INFINITY) {
-            return Err(PoissonError::Rate1 { rate1 });
-        }
-        if rate0 == rate1 {
-            return Err(PoissonError::Equal { rate: rate0 });
-        }
+    pub fn new(rate0: f64, rate1: f64) -> Result<Self, RateError> {
+        Self::of(Rates { rate0, rate1 })
+    }
+
+    fn of(rates: Rates) -> Result<Self, RateError> {
+        let Rates { rate0, rate1 } = rates.checked()?;
         let event = ln_quotient(rate1, rate0, rate1 - rate0);
         let open = EPS / 2.0 * rate0 + EPS / 2.0 * rate1;
         Ok(Self {
-            rate0,
-            rate1,
+            rates,
             event: Increment::new(event, EPS, event.abs()),
             observation: Increment::new(rate0 - rate1, open, event.abs()),
         })
@@ -85,13 +76,13 @@ impl Poisson {
     /// Mean count under H0.
     #[must_use]
     pub const fn rate0(&self) -> f64 {
-        self.rate0
+        self.rates.rate0
     }
 
     /// Mean count under H1.
     #[must_use]
     pub const fn rate1(&self) -> f64 {
-        self.rate1
+        self.rates.rate1
     }
 
     /// `ln(λ₁/λ₀)`, what one event adds to the logarithm of the ratio.
@@ -147,82 +138,32 @@ impl Family for Poisson {
     }
 
     fn parameters(&self) -> [f64; 4] {
-        [3.0, self.rate0, self.rate1, 0.0]
+        [3.0, self.rates.rate0, self.rates.rate1, 0.0]
     }
 }
 
-/// The two hypotheses as they are stored.
 #[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
-struct Stored {
-    rate0: f64,
-    rate1: f64,
-}
-
-#[cfg(feature = "serde")]
-impl From<Poisson> for Stored {
+impl From<Poisson> for Rates {
     fn from(family: Poisson) -> Self {
-        Self { rate0: family.rate0, rate1: family.rate1 }
+        family.rates
     }
 }
 
 #[cfg(feature = "serde")]
-impl TryFrom<Stored> for Poisson {
-    type Error = PoissonError;
+impl TryFrom<Rates> for Poisson {
+    type Error = RateError;
 
-    fn try_from(stored: Stored) -> Result<Self, PoissonError> {
-        Self::new(stored.rate0, stored.rate1)
+    fn try_from(rates: Rates) -> Result<Self, RateError> {
+        Self::of(rates)
     }
 }
-
-/// Why two numbers are not a pair of hypotheses.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum PoissonError {
-    /// `rate0` is not positive and finite.
-    Rate0 {
-        /// The value given.
-        rate0: f64,
-    },
-    /// `rate1` is not positive and finite.
-    Rate1 {
-        /// The value given.
-        rate1: f64,
-    },
-    /// Both hypotheses are the same.
-    Equal {
-        /// The value given twice.
-        rate: f64,
-    },
-}
-
-impl core::fmt::Display for PoissonError {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            Self::Rate0 { rate0 } => write!(f, "rate0 must be positive and finite, got {rate0}"),
-            Self::Rate1 { rate1 } => write!(f, "rate1 must be positive and finite, got {rate1}"),
-            Self::Equal { rate } => write!(f, "the hypotheses must differ, got {rate} twice"),
-        }
-    }
-}
-
-impl core::error::Error for PoissonError {}
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn what_is_not_a_rate_is_refused() {
-        for bad in [f64::NAN, f64::INFINITY, -1.0, 0.0] {
-            assert!(matches!(Poisson::new(bad, 0.3), Err(PoissonError::Rate0 { .. })));
-            assert!(matches!(Poisson::new(0.1, bad), Err(PoissonError::Rate1 { .. })));
-        }
-        assert_eq!(Poisson::new(3.0, 3.0), Err(PoissonError::Equal { rate: 3.0 }));
-    }
-
-    #[test]
-    fn increments_are_finite_over_the_whole_range() -> Result<(), PoissonError> {
+    fn increments_are_finite_over_the_whole_range() -> Result<(), RateError> {
         let (least, most) = (f64::from_bits(1), f64::MAX);
         for (low, high) in [(least, most), (least, 2.0 * least), (1.0, 1.0 + EPS), (1.0, most)] {
             for (family, sign) in [(Poisson::new(low, high)?, 1.0), (Poisson::new(high, low)?, -1.0)] {

@@ -4,11 +4,11 @@ use glam::DVec3;
 
 use super::HORIZON;
 use super::clip::{Cell, View};
-use super::corner::{ABOVE, BELOW, Class, FacetCorner, SPECIAL};
+use super::corner::{self, ABOVE, BELOW, Class, FacetCorner};
 use super::diagram::Diagram;
 use super::error::VoronoiError;
 use super::hull::{Hull, Shape};
-use super::measure::{Corner, measure};
+use super::measure::{Corner, is_thin, measure};
 use super::order;
 use super::ordinary::{Side, Sum};
 use super::ray::Ray;
@@ -176,7 +176,7 @@ impl Builder {
     fn add_hull_cell(&mut self, site: u32, pole: Option<&Ray>) {
         let class = self.classes[site as usize];
         match class {
-            ABOVE => self.add_ordinary_cell(site),
+            ABOVE if self.add_ordinary_cell(site) => {}
             NONE => {}
             BELOW => self.sums[site as usize] = Sum::finished(0.0, DVec3::ZERO),
             ABOVE_AND_BELOW if self.add_clipped_cell(site, pole) => {}
@@ -202,17 +202,14 @@ impl Builder {
         corner_of.resize(rays.len(), u32::MAX);
         classes.clear();
         classes.resize(rays.len(), 0);
-        facet_corners.clear();
-        let pole = pole.map(|pole| pole.unit);
-        for (f, facet) in hull.facets.iter_mut().enumerate() {
+        let facets = hull.facets.iter().map(|facet| facet.sites);
+        corner::set_corners(facets, rays, pole.map(|pole| pole.unit), facet_corners);
+        for (f, (facet, corner)) in hull.facets.iter_mut().zip(facet_corners).enumerate() {
             facet.mark = 0;
-            let [a, b, c] = facet.sites.map(|site| &rays[site as usize]);
-            let corner = FacetCorner::new(a, b, c, pole);
             for (k, &site) in facet.sites.iter().enumerate() {
                 corner_of[site as usize] = (4 * f + k) as u32;
                 classes[site as usize] |= corner.class;
             }
-            facet_corners.push(corner);
         }
     }
 
@@ -229,16 +226,15 @@ impl Builder {
                 }
                 let end = &facet_corners[g];
                 let (left, right) = (facet.sites[(k + 2) % 3] as usize, facet.sites[(k + 1) % 3] as usize);
-                let mut has_length = false;
-                if (start.class | end.class) & SPECIAL == 0 {
+                let classes = start.class | end.class;
+                let mut has_length = classes == ABOVE_AND_BELOW;
+                if classes == ABOVE {
                     let site = &rays[left];
                     let (d, e) = (start.offset(site), end.offset(site));
-                    has_length = (e - d).length_squared() > SURE_LENGTH * SURE_LENGTH * d.length_squared();
-                    if start.class & end.class == ABOVE {
-                        let side = Side::new(site.unit, start.unit, d, e);
-                        sums[left].add(&side);
-                        sums[right].add_reverse(&side, site.offset(&rays[right]));
-                    }
+                    let side = Side::new(site.unit, start.unit, d, e, start.square + end.square);
+                    has_length = side.chord.length_squared() > SURE_LENGTH * SURE_LENGTH * start.square;
+                    sums[left].add(&side);
+                    sums[right].add_reverse(&side, site.offset(&rays[right]));
                 }
                 if !has_length && hull.is_flat(rays, (4 * f + k) as u32) {
                     hull.facets[f].mark |= 1 << k;
@@ -267,52 +263,75 @@ impl Builder {
         }
     }
 
-    fn add_ordinary_cell(&mut self, site: u32) {
+    /// Adds a cell of ordinary corners above the horizon, unless it is thin.
+    fn add_ordinary_cell(&mut self, site: u32) -> bool {
         let Self { hull, owners, corner_of, facet_corners, diagram, sums, .. } = self;
         let sum = &mut sums[site as usize];
-        *sum = Sum::finished(sum.solid_angle(), sum.vector_moment());
+        let solid_angle = sum.solid_angle();
         let outline = diagram.start_outline();
+        let mut reach = 0.0;
         Self::each_edge(hull, corner_of[site as usize], |has_length, before, _, neighbor| {
+            let start = &facet_corners[before];
+            reach = if start.square > reach { start.square } else { reach };
             if has_length {
-                diagram.push_edge(owners[neighbor as usize], facet_corners[before].unit);
+                diagram.push_edge(owners[neighbor as usize], start.unit);
             }
         });
+        if is_thin(solid_angle, reach) {
+            diagram.drop_outline(outline);
+            return false;
+        }
+        *sum = Sum::finished(solid_angle, sum.vector_moment());
         diagram.end_outline(site as usize, outline);
+        true
     }
 
-    /// Adds a cell of ordinary corners on both sides of the horizon, unless it is too narrow.
+    /// Adds a cell of ordinary corners above the horizon and some below, unless doubles are not enough.
     fn add_clipped_cell(&mut self, site: u32, pole: Option<&Ray>) -> bool {
         let Self { hull, rays, owners, corner_of, facet_corners, diagram, sums, .. } = self;
         let (Some(pole), ray) = (pole, &rays[site as usize]) else { return false };
         let mut sum = sums[site as usize];
         let outline = diagram.start_outline();
-        let mut gap = [DVec3::ZERO; 2];
+        let mut gap: [Option<DVec3>; 2] = [None; 2];
+        let mut reach: f64 = 0.0;
         Self::each_edge(hull, corner_of[site as usize], |has_length, before, after, neighbor| {
             let (start, end) = (&facet_corners[before], &facet_corners[after]);
             let owner = owners[neighbor as usize];
+            reach = reach.max(start.square);
             match (start.class, end.class) {
                 (ABOVE, ABOVE) if has_length => diagram.push_edge(owner, start.unit),
-                (ABOVE, ABOVE) => {}
-                (ABOVE, _) => {
-                    let exit = crossing(start.unit, end.unit, pole.unit);
+                (ABOVE, BELOW) => {
                     diagram.push_edge(owner, start.unit);
-                    diagram.push_edge(HORIZON, exit);
-                    gap[0] = exit;
-                    sum.add(&Side::new(ray.unit, start.unit, start.offset(ray), exit - ray.unit));
+                    if let Some(exit) = crossing(ray, &rays[neighbor as usize], pole.unit) {
+                        diagram.push_edge(HORIZON, exit);
+                        gap[0] = Some(exit);
+                        let e = exit - ray.unit;
+                        let squares = start.square + e.length_squared();
+                        sum.add(&Side::new(ray.unit, start.unit, start.offset(ray), e, squares));
+                    }
                 }
-                (_, ABOVE) => {
-                    let entry = crossing(end.unit, start.unit, pole.unit);
-                    diagram.push_edge(owner, entry);
-                    gap[1] = entry;
-                    sum.add(&Side::new(ray.unit, entry, entry - ray.unit, end.offset(ray)));
+                (BELOW, ABOVE) => {
+                    if let Some(entry) = crossing(&rays[neighbor as usize], ray, pole.unit) {
+                        diagram.push_edge(owner, entry);
+                        gap[1] = Some(entry);
+                        let d = entry - ray.unit;
+                        let squares = d.length_squared() + end.square;
+                        sum.add(&Side::new(ray.unit, entry, d, end.offset(ray), squares));
+                    }
                 }
                 _ => {}
             }
         });
-        let [exit, entry] = gap;
-        sum.add(&Side::new(ray.unit, exit, exit - ray.unit, entry - ray.unit));
+        let near = |corner: &DVec3| corner.dot(ray.unit) > NEAR;
+        let [Some(exit), Some(entry)] = gap.map(|corner| corner.filter(near)) else {
+            diagram.drop_outline(outline);
+            return false;
+        };
+        let (d, e) = (exit - ray.unit, entry - ray.unit);
+        let (at_exit, at_entry) = (d.length_squared(), e.length_squared());
+        sum.add(&Side::new(ray.unit, exit, d, e, at_exit + at_entry));
         let solid_angle = sum.solid_angle();
-        if solid_angle < NARROW * NARROW {
+        if solid_angle < NARROW * NARROW || is_thin(solid_angle, reach.max(at_exit).max(at_entry)) {
             diagram.drop_outline(outline);
             return false;
         }
@@ -349,11 +368,24 @@ impl Builder {
     }
 }
 
-/// Where the edge between a corner above and one below meets the horizon.
-fn crossing(above: DVec3, below: DVec3, pole: DVec3) -> DVec3 {
-    let point = above * -below.dot(pole) + below * above.dot(pole);
-    (point - pole * point.dot(pole)).normalize()
+/// Where the bisector goes below the horizon, with `left` on its left; the same bits for both cells. None if it is too
+/// close to the horizon all along for doubles.
+#[inline]
+fn crossing(left: &Ray, right: &Ray, pole: DVec3) -> Option<DVec3> {
+    let normal = left.offset(right);
+    let cross = normal.cross(pole);
+    let (square, of_normal) = (cross.length_squared(), normal.length_squared());
+    (square > STEEP * STEEP * of_normal && of_normal > SHORT * SHORT).then(|| cross / square.sqrt())
 }
+
+/// Bisectors at a smaller sine to the horizon meet it in a corner for twofold numbers.
+const STEEP: f64 = 0.25;
+
+/// So do bisectors of sites closer than 2⁻⁴⁰.
+const SHORT: f64 = 1.0 / (1u64 << 40) as f64;
+
+/// Cells reach up to this cosine from their site, if they are to be measured from there.
+const NEAR: f64 = 0.6;
 
 /// Number of sites that are loaded at a time.
 const BATCH: usize = 64;

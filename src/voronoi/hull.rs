@@ -73,6 +73,21 @@ pub(super) struct Hull {
     size: f64,
 }
 
+impl Facet {
+    const NEW: Self = Self { w: DVec3::ZERO, error: f32::INFINITY, mark: u32::MAX, sites: [0; 3], across: [0; 3] };
+
+    /// Whether `site` is beyond the plane.
+    #[inline(always)]
+    fn has_below(&self, rays: &[Ray], site: u32, point: DVec3) -> bool {
+        let excess = self.w.dot(point) - 1.0;
+        if excess.abs() > f64::from(self.error) {
+            return excess > 0.0;
+        }
+        let [a, b, c] = self.sites.map(|site| &rays[site as usize]);
+        in_circle(a, b, c, &rays[site as usize]) > 0
+    }
+}
+
 impl Hull {
     /// Builds the hull of `rays`, which should be in an order that keeps close sites together.
     pub fn build(&mut self, rays: &[Ray]) -> Shape {
@@ -122,8 +137,10 @@ impl Hull {
     /// The tetrahedron: the base a b c, counter-clockwise seen from outside, and the fourth site.
     fn set_first_facets(&mut self, [a, b, c, d]: [u32; 4]) {
         for sites in [[a, b, c], [b, a, d], [a, c, d], [c, b, d]] {
-            let facet = self.facet(sites, [0; 3]);
-            self.facets.push(facet);
+            let origin = self.points[sites[2] as usize];
+            let [d, e] = [0, 1].map(|k| edge(&self.points, sites[k], origin));
+            let (w, error) = plane(self.size, origin, d, e);
+            self.facets.push(Facet { w, error, mark: u32::MAX, sites, across: [0; 3] });
         }
         for f in 0..4 {
             for e in 0..3 {
@@ -140,40 +157,10 @@ impl Hull {
         }
     }
 
-    /// A facet with its plane.
-    ///
-    /// With u = 2⁻⁵³ and all components below m: points are right to u m, so that edges d, e are right to 4 u m, their
-    /// product n to 24 u m (|d| + |e|) + 18 u |d| |e| in the sum of its components, at most 42 u m (|d| + |e|); n·(q − a)
-    /// is then right to twice m times that and 5 u m |n|; division and w·q add 4 u m |w|. All divided by n·a, whose own
-    /// error moves no sign while it is positive.
-    #[inline]
-    fn facet(&self, sites: [u32; 3], across: [u32; 3]) -> Facet {
-        let [a, b, c] = sites.map(|site| self.points[site as usize]);
-        let (d, e) = (b - a, c - a);
-        let normal = d.cross(e);
-        let height = normal.dot(a);
-        if height > SMALLEST_HEIGHT {
-            let inverse = 1.0 / height;
-            let w = normal * inverse;
-            let length = |v: DVec3| v.x.abs() + v.y.abs() + v.z.abs();
-            let m = self.size;
-            let error = PLANE_ERROR * m * ((length(d) + length(e)) * (m * inverse) * 84.0 + 9.0 * length(w));
-            Facet { w, error: error as f32, mark: u32::MAX, sites, across }
-        } else {
-            Facet { w: DVec3::ZERO, error: f32::INFINITY, mark: u32::MAX, sites, across }
-        }
-    }
-
     /// Whether `site` is beyond the plane of `facet`.
     #[inline]
     fn is_beyond(&self, rays: &[Ray], facet: u32, site: u32, point: DVec3) -> bool {
-        let facet = &self.facets[facet as usize];
-        let excess = facet.w.dot(point) - 1.0;
-        if excess.abs() > f64::from(facet.error) {
-            return excess > 0.0;
-        }
-        let [a, b, c] = facet.sites.map(|site| &rays[site as usize]);
-        in_circle(a, b, c, &rays[site as usize]) > 0
+        self.facets[facet as usize].has_below(rays, site, point)
     }
 
     /// Inserts `site`, starting to look for its place at a facet; returns one of its facets.
@@ -275,30 +262,27 @@ impl Hull {
 
     /// Finds the hole that `site` makes, from one facet of it, and its rim counter-clockwise.
     fn dig(&mut self, rays: &[Ray], site: u32, point: DVec3, facet: u32) {
-        self.hole.clear();
-        self.rim.clear();
-        self.stack.clear();
-        self.facets[facet as usize].mark = site;
-        self.hole.push(facet);
-        for edge in [2, 1, 0] {
-            self.stack.push(4 * facet + edge);
-        }
-        while let Some(edge) = self.stack.pop() {
-            let from = &self.facets[(edge >> 2) as usize];
-            let (e, across) = ((edge & 3), from.across[(edge & 3) as usize]);
-            let there = across >> 2;
-            if self.facets[there as usize].mark == site {
+        let Self { facets, stack, hole, rim, .. } = self;
+        hole.clear();
+        rim.clear();
+        stack.clear();
+        let first = &mut facets[facet as usize];
+        first.mark = site;
+        hole.push(facet);
+        stack.extend(first.across.iter().rev());
+        while let Some(across) = stack.pop() {
+            let there = &mut facets[(across >> 2) as usize];
+            if there.mark == site {
                 continue;
             }
-            if self.is_beyond(rays, there, site, point) {
-                self.facets[there as usize].mark = site;
-                self.hole.push(there);
-                let first = next(across & 3) as u32;
-                self.stack.push(4 * there + next(first) as u32);
-                self.stack.push(4 * there + first);
+            let (after, before) = (next(across & 3), next(next(across & 3) as u32));
+            if there.has_below(rays, site, point) {
+                there.mark = site;
+                hole.push(across >> 2);
+                stack.push(there.across[before]);
+                stack.push(there.across[after]);
             } else {
-                let start = next(e);
-                self.rim.push(Rim { from: from.sites[start], to: from.sites[next(start as u32)], across });
+                rim.push(Rim { from: there.sites[before], to: there.sites[after], across });
             }
         }
     }
@@ -307,19 +291,25 @@ impl Hull {
     fn fill(&mut self, site: u32) -> u32 {
         while self.hole.len() < self.rim.len() {
             self.hole.push(self.facets.len() as u32);
-            self.facets.push(self.facets[0]);
+            self.facets.push(Facet::NEW);
         }
-        let count = self.rim.len();
-        let mut before = self.hole[count - 1];
-        for k in 0..count {
-            let Rim { from, to, across } = self.rim[k];
-            let here = self.hole[k];
-            let after = self.hole[if k + 1 == count { 0 } else { k + 1 }];
-            self.facets[here as usize] = self.facet([from, to, site], [4 * after + 1, 4 * before, across]);
-            self.facets[(across >> 2) as usize].across[(across & 3) as usize] = 4 * here + 2;
+        let Self { points, facets, hole, rim, size, .. } = self;
+        let (points, facets, rim, hole) = (&points[..], &mut facets[..], &rim[..], &hole[..rim.len()]);
+        let point = points[site as usize];
+        let mut before = hole[hole.len() - 1];
+        let mut d = edge(points, rim[0].from, point);
+        for (k, &Rim { from, to, across }) in rim.iter().enumerate() {
+            let here = hole[k];
+            let after = hole[if k + 1 == hole.len() { 0 } else { k + 1 }];
+            let e = edge(points, to, point);
+            let (w, error) = plane(*size, point, d, e);
+            let across_all = [4 * after + 1, 4 * before, across];
+            facets[here as usize] = Facet { w, error, mark: u32::MAX, sites: [from, to, site], across: across_all };
+            facets[(across >> 2) as usize].across[(across & 3) as usize] = 4 * here + 2;
             before = here;
+            d = e;
         }
-        self.hole[0]
+        hole[0]
     }
 
     /// Whether the corners on both sides of an edge are the same point.
@@ -369,16 +359,43 @@ impl Hull {
     }
 }
 
+/// The plane w·x = 1 through `c` and the points at `d` and `e` from it, counter-clockwise seen from outside, and the
+/// error of w·q where q is near the plane; |d| and |e| are sums of components.
+///
+/// With u = 2⁻⁵³ and all components below m: points are right to u m, so that edges d, e are right to 4 u m, their
+/// product n to 24 u m (|d| + |e|) + 18 u |d| |e| in the sum of its components, at most 42 u m (|d| + |e|); n·(q − c)
+/// is then right to twice m times that and 5 u m |n|, |n| ≤ |d| |e|; division and w·q add 4 u m |w|. All divided by
+/// n·c, whose own error moves no sign while it is positive.
+#[inline(always)]
+fn plane(m: f64, c: DVec3, (d, d_sum): (DVec3, f64), (e, e_sum): (DVec3, f64)) -> (DVec3, f32) {
+    let normal = d.cross(e);
+    let height = normal.dot(c);
+    if height > SMALLEST_HEIGHT {
+        let inverse = 1.0 / height;
+        let error = PLANE_ERROR * m * inverse * ((d_sum + e_sum) * m * 84.0 + 9.0 * (d_sum * e_sum));
+        (normal * inverse, error as f32)
+    } else {
+        (DVec3::ZERO, f32::INFINITY)
+    }
+}
+
+/// The point of `site` less another one, and the sum of its components' sizes.
+#[inline(always)]
+fn edge(points: &[DVec3], site: u32, from: DVec3) -> (DVec3, f64) {
+    let edge = points[site as usize] - from;
+    (edge, edge.x.abs() + edge.y.abs() + edge.z.abs())
+}
+
 /// The index after `k` of the three in a facet.
 #[inline]
 fn next(k: u32) -> usize {
     if k == 2 { 0 } else { k as usize + 1 }
 }
 
-/// The site with the largest `measure`, if `is_right`; else the first one that is.
+/// The one with the largest `measure` of some sites, if `is_right`; else the first one that is.
 fn choose(rays: &[Ray], measure: impl Fn(&Ray) -> f64, is_right: impl Fn(&Ray) -> bool) -> Option<u32> {
     let (mut best, mut largest) = (0, -1.0);
-    for (k, ray) in rays.iter().enumerate() {
+    for (k, ray) in rays.iter().enumerate().step_by(rays.len().div_ceil(SAMPLE)) {
         let value = measure(ray);
         if value > largest {
             (best, largest) = (k, value);
@@ -408,6 +425,9 @@ fn far_from_plane(rays: &[Ray], first: u32, second: u32, third: u32) -> Option<(
     let site = choose(rays, |ray| ray.offset(a).dot(normal).abs(), |ray| in_circle(a, b, c, ray) != 0)?;
     Some((site, in_circle(a, b, c, &rays[site as usize])))
 }
+
+/// Number of sites, or up to twice as many, of which the first four are taken.
+const SAMPLE: usize = 50;
 
 /// The origin is the centre if it is this deep within the first four sites.
 const DEEP: f64 = 1.0 / 16.0;

@@ -17,13 +17,24 @@ use glam::DVec3;
 
 use super::clip::{Cell, Edge, View};
 use super::ordinary::arc_over_sine_less_one;
+use super::twofold::Twofold3;
 use crate::float::atan2;
 
 /// Bound of the error of the solid angle of a cell, in steradians, and of each component of its vector moment.
 ///
-/// Searched, for cells of up to 40 edges; of narrow cells also relative. From the parts: four angles of 2⁻⁵³ × 2 each,
-/// and normals that are right to 2⁻⁵¹.
+/// Searched, for cells of up to 40 edges. From the parts: four angles of 2⁻⁵³ × 2 each, and normals that are right to 2⁻⁵¹.
 pub const SOLID_ANGLE_ERROR: f64 = 4e-15;
+
+/// Bound of the relative error of the solid angle of a cell, beside [`PLANE_ERROR`].
+///
+/// Searched. From the parts: 16 times that of a square for cells as thin as differences in doubles are used for.
+pub const RELATIVE_ERROR: f64 = 4e-14;
+
+/// Bound of the relative error of the solid angle of a cell from the planes of its edges, over its perimeter and times its
+/// solid angle.
+///
+/// Searched. From the parts: normals and corners of twofold numbers are right to 2⁻⁹⁵.
+pub const PLANE_ERROR: f64 = 4e-28;
 
 /// Corners of smaller sine than this, and corners of cells narrower than `NARROW`, are computed in twofold numbers.
 const SHARP: f64 = 0.25;
@@ -45,6 +56,10 @@ impl Corner {
     fn minus(&self, other: &Self) -> DVec3 {
         (self.unit - other.unit) + (self.rest - other.rest)
     }
+
+    fn twofold(&self) -> Twofold3 {
+        Twofold3::from_sum(self.unit, self.rest)
+    }
 }
 
 /// Computes the `corners` of `cell` and returns its solid angle and vector moment.
@@ -65,13 +80,30 @@ pub(super) fn measure(view: &View<'_>, cell: &Cell, corners: &mut Vec<Corner>) -
         _ => {
             set_corners(view, &cell.edges, corners);
             let first = corners[0];
-            if corners.iter().all(|corner| corner.unit.dot(first.unit) > 0.5) {
-                (fan_solid_angle(corners), fan_vector_moment(corners))
-            } else {
-                (girard_solid_angle(&cell.edges), edge_vector_moment(&cell.edges, corners))
+            let near = corners.iter().all(|corner| corner.unit.dot(first.unit) > 0.5);
+            let mut solid_angle = if near { fan_solid_angle(corners) } else { girard_solid_angle(&cell.edges) };
+            if is_thin(solid_angle, width_squared(corners)) {
+                set_twofold_corners(view, &cell.edges, corners);
+                solid_angle = twofold_solid_angle(view, &cell.edges, corners);
             }
+            let moment = if near { fan_vector_moment(corners) } else { edge_vector_moment(&cell.edges, corners) };
+            (solid_angle, moment)
         }
     }
+}
+
+/// Whether a cell is so thin that differences of corners in doubles, or angles that sum to 2π, do not tell its solid angle.
+#[inline]
+pub(super) fn is_thin(solid_angle: f64, width_squared: f64) -> bool {
+    solid_angle < THIN * width_squared
+}
+
+/// Solid angle over the square of the width: relative errors are 1/`THIN` times those of a square.
+const THIN: f64 = 1.0 / 16.0;
+
+/// Square of the largest distance from the first corner.
+fn width_squared(corners: &[Corner]) -> f64 {
+    corners.iter().map(|corner| corner.minus(&corners[0]).length_squared()).fold(0.0, f64::max)
 }
 
 fn set_corners(view: &View<'_>, edges: &[Edge], corners: &mut Vec<Corner>) {
@@ -80,12 +112,16 @@ fn set_corners(view: &View<'_>, edges: &[Edge], corners: &mut Vec<Corner>) {
         corners.push(double_corner(view, before, edge).unwrap_or_else(|| twofold_corner(view, before, edge.id)));
         before = edge.id;
     }
-    let first = corners[0];
-    if corners.iter().all(|corner| corner.minus(&first).length_squared() < NARROW * NARROW) {
-        for (edge, corner) in edges.iter().zip(corners) {
-            *corner = twofold_corner(view, before, edge.id);
-            before = edge.id;
-        }
+    if width_squared(corners) < NARROW * NARROW {
+        set_twofold_corners(view, edges, corners);
+    }
+}
+
+fn set_twofold_corners(view: &View<'_>, edges: &[Edge], corners: &mut [Corner]) {
+    let mut before = edges[edges.len() - 1].id;
+    for (edge, corner) in edges.iter().zip(corners) {
+        *corner = twofold_corner(view, before, edge.id);
+        before = edge.id;
     }
 }
 
@@ -98,12 +134,19 @@ fn double_corner(view: &View<'_>, before: u32, edge: &Edge) -> Option<Corner> {
     good(edge.start).or_else(|| good(view.other_corner(before, edge)))
 }
 
+/// The corner, on both planes to 2⁻⁹⁵.
+///
+/// A cross product of twofold numbers is off by 2⁻¹⁰⁴ over the sine in any direction; along the planes this moves almost
+/// nothing, and across them it is taken out.
 fn twofold_corner(view: &View<'_>, before: u32, at: u32) -> Corner {
     let corner = view.sharp_corner(before, at);
-    if corner.hi().length_squared() < BLUNT * BLUNT {
-        return Corner { unit: view.corner_by_sides(before, at), rest: DVec3::ZERO };
-    }
-    let unit = corner.unit();
+    let unit = if corner.hi().length_squared() < BLUNT * BLUNT {
+        Twofold3::from_sum(view.corner_by_sides(before, at), DVec3::ZERO)
+    } else {
+        corner.unit()
+    };
+    let normal = view.plane(at).twofold(view.site);
+    let unit = unit.add(normal.scale(unit.dot(normal).negate())).unit();
     Corner { unit: unit.hi(), rest: unit.lo() }
 }
 
@@ -137,6 +180,30 @@ fn fan_solid_angle(corners: &[Corner]) -> f64 {
         let (a, b, c) = (first.unit, pair[0].unit, pair[1].unit);
         let tangent = a.dot(d.cross(e)) / (1.0 + a.dot(b) + b.dot(c) + c.dot(a));
         (re, im) = (re - im * tangent, im + re * tangent);
+    }
+    2.0 * atan2(im.max(0.0), re)
+}
+
+/// The fan from the middle of the longest edge to the halves of all edges, in twofold numbers: a thin cell is within little
+/// more than a right angle from there.
+fn twofold_solid_angle(view: &View<'_>, edges: &[Edge], corners: &[Corner]) -> f64 {
+    let ends = |k: usize| (corners[k].twofold(), corners[if k + 1 == corners.len() { 0 } else { k + 1 }].twofold());
+    // Of the two summands one vanishes for half a circle and the other one for a point.
+    let middle = |k: usize| {
+        let ((start, end), normal) = (ends(k), view.plane(edges[k].id).twofold(view.site));
+        end.add(start.negate()).cross(normal).add(start.add(end)).unit()
+    };
+    let length = |k: usize| corners[if k + 1 == corners.len() { 0 } else { k + 1 }].minus(&corners[k]).length_squared();
+    let longest = (1..edges.len()).fold(0, |best, k| if length(k) > length(best) { k } else { best });
+    let apex = middle(longest);
+    let (mut re, mut im) = (1.0, 0.0);
+    for k in 0..edges.len() {
+        let ((start, end), middle) = (ends(k), middle(k));
+        for (a, b) in [(start, middle), (middle, end)] {
+            let (d, e) = (a.add(apex.negate()), b.add(apex.negate()));
+            let tangent = apex.dot(d.cross(e)).hi / apex.add(a).dot(apex.add(b)).hi;
+            (re, im) = (re - im * tangent, im + re * tangent);
+        }
     }
     2.0 * atan2(im.max(0.0), re)
 }

@@ -13,17 +13,24 @@ use glam::DVec3;
 /// Bits of a coordinate on a face.
 const DEPTH: u32 = 15;
 
+/// The same for few sites.
+const COARSE: u32 = 6;
+
 /// Fewer sites than this are taken in one round.
 const ONE_ROUND: usize = 500;
 
 /// Sets `keys` to the sites' order: the index is in the lower 28 bits.
 pub(super) fn sort(sites: &[DVec3], keys: &mut Vec<u64>) {
     keys.clear();
-    let rounds = if sites.len() < ONE_ROUND { 0 } else { 7 };
-    keys.extend(sites.iter().enumerate().map(|(index, &site)| {
-        let early = (hash(index as u32).trailing_zeros() / 3).min(rounds);
-        u64::from(7 - early) << 61 | curve(site) << 28 | index as u64
-    }));
+    let sites_by_index = sites.iter().enumerate();
+    if sites.len() < ONE_ROUND {
+        keys.extend(sites_by_index.map(|(index, &site)| curve::<COARSE>(site) << 28 | index as u64));
+    } else {
+        keys.extend(sites_by_index.map(|(index, &site)| {
+            let early = (hash(index as u32).trailing_zeros() / 3).min(7);
+            u64::from(7 - early) << 61 | curve::<DEPTH>(site) << 28 | index as u64
+        }));
+    }
     keys.sort_unstable();
 }
 
@@ -36,6 +43,10 @@ pub(super) fn merge_rounds(keys: &[u64], places: &mut Vec<u32>) {
     let head = |r: usize, at: usize| if at < ends[r] { along(keys[at]) } else { u64::MAX };
     let mut heads: [u64; 8] = core::array::from_fn(|r| head(r, at[r]));
     places.clear();
+    if ends[0] == keys.len() {
+        places.extend(0..keys.len() as u32);
+        return;
+    }
     for _ in keys {
         let r = (1..8).fold(0, |best, r| if heads[r] < heads[best] { r } else { best });
         places.push(at[r] as u32);
@@ -55,8 +66,8 @@ fn hash(index: u32) -> u32 {
     (x ^ x >> 13).wrapping_mul(0xc2b2_ae35)
 }
 
-/// The place of a direction on the curve, below 6·2³⁰.
-fn curve(site: DVec3) -> u64 {
+/// The place of a direction on the curve of `BITS` a coordinate, below 6·4^`BITS`.
+fn curve<const BITS: u32>(site: DVec3) -> u64 {
     let a = site.abs();
     let (face, s, t, largest) = if a.x >= a.y && a.x >= a.z {
         (0, site.y, site.z, site.x)
@@ -66,15 +77,15 @@ fn curve(site: DVec3) -> u64 {
         (2, site.x, site.y, site.z)
     };
     let face = 2 * face + u64::from(largest < 0.0);
-    let cell = |x: f64| ((0.5 + 0.5 * (x / largest.abs())) * f64::from((1u32 << DEPTH) - 1)) as u32;
-    face << (2 * DEPTH) | u64::from(hilbert(cell(s), cell(t)))
+    let cell = |x: f64| ((0.5 + 0.5 * (x / largest.abs())) * f64::from((1u32 << BITS) - 1)) as u32;
+    face << (2 * BITS) | u64::from(hilbert::<BITS>(cell(s), cell(t)))
 }
 
-/// The place of the cell (x, y) on the Hilbert curve of 4^`DEPTH` cells.
+/// The place of the cell (x, y) on the Hilbert curve of 4^`BITS` cells.
 #[inline]
-fn hilbert(x: u32, y: u32) -> u32 {
+fn hilbert<const BITS: u32>(x: u32, y: u32) -> u32 {
     let (mut place, mut turn) = (0, 0);
-    for step in (0..DEPTH / LEVELS).rev() {
+    for step in (0..BITS / LEVELS).rev() {
         let digits = (x >> (LEVELS * step) & 7) << 3 | (y >> (LEVELS * step) & 7);
         let entry = u32::from(CURVE[(turn << 6 | digits) as usize]);
         place = place << 6 | entry >> 2;
@@ -132,7 +143,7 @@ mod tests {
         for x in 0..side {
             for y in 0..side {
                 // The first levels of the curve, whose turns do not depend on the others.
-                let place = hilbert(x << coarse, y << coarse) >> (2 * coarse);
+                let place = hilbert::<DEPTH>(x << coarse, y << coarse) >> (2 * coarse);
                 assert!(cells[place as usize].replace((x, y)).is_none(), "two cells are number {place}");
             }
         }

@@ -28,22 +28,24 @@ impl Default for Sum {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Side {
     tangent: f64,
-    /// d × e, seen from the site on the left.
-    pub flat: DVec3,
-    bulge: DVec3,
+    /// Twice the part of the moment of the site on the left.
+    moment: DVec3,
     pub chord: DVec3,
 }
 
 impl Side {
-    /// The edge from corner `c` with the offsets `d`, `e` of its ends from `site` on its left.
+    /// The edge from corner `c` with the offsets `d`, `e` of its ends from `site` on its left, whose squares are `squares`
+    /// together.
+    ///
+    /// With r = θ / sin θ − 1: d × e + r c × c′ = (d + r c) × (e − d), and u·(c × c′) = u·(d × e).
     #[inline(always)]
-    pub fn new(site: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Self {
+    pub fn new(site: DVec3, c: DVec3, d: DVec3, e: DVec3, squares: f64) -> Self {
         let chord = e - d;
-        let flat = d.cross(e);
         let square = chord.length_squared();
-        let cosines = 4.0 - 0.5 * (d.length_squared() + e.length_squared() + square);
-        let bulge = c.cross(chord) * arc_over_sine_less_one(0.25 * square);
-        Self { tangent: site.dot(flat) / cosines, flat, bulge, chord }
+        let bulge = arc_over_sine_less_one(0.25 * square);
+        let moment = (d + c * bulge).cross(chord);
+        let cosines = 4.0 - 0.5 * (squares + square);
+        Self { tangent: site.dot(moment) / (cosines * (1.0 + bulge)), moment, chord }
     }
 }
 
@@ -62,14 +64,14 @@ impl Sum {
     #[inline(always)]
     pub fn add(&mut self, side: &Side) {
         self.turn(side.tangent);
-        self.moment += side.flat + side.bulge;
+        self.moment += side.moment;
     }
 
     /// Adds an edge with the site on its right; `offset` is the site on the left less this one.
     #[inline(always)]
     pub fn add_reverse(&mut self, side: &Side, offset: DVec3) {
         self.turn(side.tangent);
-        self.moment -= side.flat + offset.cross(side.chord) + side.bulge;
+        self.moment -= side.moment + offset.cross(side.chord);
     }
 
     #[inline(always)]
@@ -100,12 +102,15 @@ const SMALL: f64 = 1.0 / 32.0;
 ///
 /// The power series of asin(√s) / √(s(1 − s)), coefficients 2/3, 2/3·4/5, 2/3·4/5·6/7, …: up to 1/16 14 of them leave less
 /// than 2⁻⁵⁶ of the first, up to 1/128 7 do. Beyond, the arc itself.
-#[inline]
+#[inline(always)]
 pub(super) fn arc_over_sine_less_one(s: f64) -> f64 {
-    if s <= 0.007_812_5 {
-        power_series(s, &RATIOS[6..])
-    } else if s <= 0.0625 {
-        power_series(s, &RATIOS)
+    if s <= 0.007_812_5 { power_series(s, &COEFFICIENTS[..8]) } else { of_long_arc(s) }
+}
+
+#[inline(never)]
+fn of_long_arc(s: f64) -> f64 {
+    if s <= 0.0625 {
+        power_series(s, &COEFFICIENTS)
     } else {
         let half_sine = (s * (1.0 - s)).sqrt();
         atan2(half_sine, 0.5 - s) / (2.0 * half_sine) - 1.0
@@ -113,17 +118,17 @@ pub(super) fn arc_over_sine_less_one(s: f64) -> f64 {
 }
 
 #[inline(always)]
-fn power_series(s: f64, ratios: &[f64]) -> f64 {
-    2.0 / 3.0 * s * ratios.iter().fold(1.0, |series, ratio| 1.0 + ratio * s * series)
+fn power_series(s: f64, coefficients: &[f64]) -> f64 {
+    s * coefficients.iter().rev().fold(0.0, |series, coefficient| coefficient + s * series)
 }
 
-/// 28/29, 26/27, … 4/5.
-const RATIOS: [f64; 13] = {
-    let mut ratios = [0.0; 13];
-    let mut k = 0;
-    while k < 13 {
-        ratios[k] = (28 - 2 * k) as f64 / (29 - 2 * k) as f64;
+/// 2/3, 2/3·4/5, …
+const COEFFICIENTS: [f64; 14] = {
+    let mut coefficients = [2.0 / 3.0; 14];
+    let mut k = 1;
+    while k < 14 {
+        coefficients[k] = coefficients[k - 1] * ((2 * k + 2) as f64 / (2 * k + 3) as f64);
         k += 1;
     }
-    ratios
+    coefficients
 };

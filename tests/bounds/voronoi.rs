@@ -1,6 +1,6 @@
 //! Tolerances of the tests of `voronoi`.
 
-use steradian::voronoi::{CORNER_ERROR, SOLID_ANGLE_ERROR};
+use steradian::voronoi::{CORNER_ERROR, PLANE_ERROR, RELATIVE_ERROR, SOLID_ANGLE_ERROR};
 
 /// (function, regime, bound, kind of evidence); `regime` is the name of a case of the oracle, a kind of input, or `*`.
 pub const TABLE: &[(&str, &str, f64, &str)] = &[
@@ -26,13 +26,11 @@ pub const TABLE: &[(&str, &str, f64, &str)] = &[
     ("rotated", "*", 1e-10, "searched: random"),
     // Absolute error against the slow cells, of a solid angle and of the length of a moment.
     ("slow", "*", 2.0 * SOLID_ANGLE_ERROR, "three components, and the moments of the slow cells"),
-    // Of narrow cells relative; the second one times the width over the solid angle.
-    ("slow", "narrow", 1e-12, "required"),
-    ("slow", "corners", 4e-16, "required: corners rounded to doubles"),
-    // Cells that are larger than this are measured by the slow cells to their bound relative.
-    ("judged", "*", 1e-26, "ends of arcs are right to 1e-28 and 1e-13 long"),
-    // And if the sine of no corner is smaller than this.
-    ("sharpest", "*", 1e-3, "ends of arcs are right to 1e-31 over this"),
+    // Of any cell relative; the second one times the perimeter over the solid angle.
+    ("slow", "relative", RELATIVE_ERROR, "as documented"),
+    ("slow", "planes", PLANE_ERROR, "as documented; the slow cells are as exact"),
+    // Cells whose ends of arcs are known to this much of the perimeter are judged.
+    ("slow", "judged", 1e-6, "definition"),
     // The slow cells themselves, relative, against 512 bits.
     ("slow cells", "*", 4e-15, "searched: oracle"),
     // Sums, beside `validate`: absolute, of up to 2000 cells.

@@ -80,16 +80,59 @@ pub fn solid_angles(vertices: &[Vector]) -> (Fixed, Fixed) {
     (signed, unsigned)
 }
 
+/// ½ θ n̂ of the edge from a to b.
+pub fn edge_moment(a: &Vector, b: &Vector) -> Vector {
+    let normal = cross(a, b);
+    let length = dot(&normal, &normal).sqrt();
+    if length.is_zero() {
+        return Vector::default();
+    }
+    let angle = atan2(&length, &dot(a, b)).shifted(-1);
+    [0, 1, 2].map(|i| &(&normal[i] * &angle) / &length)
+}
+
 /// ½ Σ θₑ n̂ₑ.
 pub fn vector_moment(vertices: &[Vector]) -> Vector {
-    let mut sum = Vector::default();
+    edges(vertices).fold(Vector::default(), |sum, (a, b)| {
+        let term = edge_moment(a, b);
+        [0, 1, 2].map(|i| &sum[i] + &term[i])
+    })
+}
+
+/// n·½ Σ θₑ n̂ₑ.
+pub fn projected(vertices: &[Vector], n: &Vector) -> Fixed {
+    dot(&vector_moment(vertices), n)
+}
+
+/// The part of a convex loop above the horizon of `n`, which may have no vertices.
+fn clipped(vertices: &[Vector], n: &Vector) -> Vec<Vector> {
+    let mut kept = Vec::new();
+    // What is below 2⁻³⁰⁰ is the noise of an exact 0.
+    let height = |v: &Vector| Some(dot(v, n)).filter(|x| x.0.bits() + 300 > PLACES).unwrap_or_default();
     for (a, b) in edges(vertices) {
-        let normal = cross(a, b);
-        let length = dot(&normal, &normal).sqrt();
-        if !length.is_zero() {
-            let angle = atan2(&length, &dot(a, b)).shifted(-1);
-            sum = [0, 1, 2].map(|i| &sum[i] + &(&(&normal[i] * &angle) / &length));
+        let (p, q) = (height(a), height(b));
+        let above = [&p, &q].map(|height| *height >= Fixed::default());
+        if above[0] {
+            kept.push(a.clone());
+        }
+        if above[0] != above[1] {
+            let (s, t) = if above[0] { (-q, p) } else { (q, -p) };
+            kept.push(unit(&[0, 1, 2].map(|i| &(&a[i] * &s) + &(&b[i] * &t))));
         }
     }
-    sum
+    kept
+}
+
+/// ∫ max(0, n·ω) dω over the region on the left of the loop, whose solid angle is in [0, 4π): the triangles of a fan, each of
+/// them clipped, and as many hemispheres as the fan misses whole spheres.
+pub fn projected_above(vertices: &[Vector], n: &Vector) -> Fixed {
+    // In no plane of a few small integers.
+    let apex = unit(&[37, -59, 83].map(Fixed::from));
+    let parts = edges(vertices).fold(Fixed::default(), |sum, (a, b)| {
+        let part = clipped(&[apex.clone(), a.clone(), b.clone()], n);
+        if part.is_empty() { sum } else { &sum + &projected(&part, n) }
+    });
+    let missed = &solid_angles(vertices).1 - &winding(vertices, &apex);
+    let spheres = (missed.value() / (4.0 * std::f64::consts::PI)).round();
+    &parts + &(&pi() * &Fixed::from(spheres))
 }

@@ -1,5 +1,7 @@
 //! Whether the circle through three directions is empty, by integers and repeated squaring: slow, and never wrong.
 
+#![allow(dead_code, reason = "each user takes a part of it")]
+
 use num_bigint::{BigInt, Sign};
 use steradian::glam::DVec3;
 
@@ -17,6 +19,12 @@ pub fn side(a: DVec3, b: DVec3, c: DVec3, p: DVec3) -> Sign {
     ])
 }
 
+/// `Plus` if `a` is nearer to the direction `q` than `b` is, `NoSign` if both are equally near: (q·a)|b| − (q·b)|a|.
+pub fn nearer(q: DVec3, a: DVec3, b: DVec3) -> Sign {
+    let [q, a, b] = [q, a, b].map(integers);
+    two_roots([&(dot(&q, &a), square(&b)), &(-dot(&q, &b), square(&a))])
+}
+
 /// Integers along the ray.
 fn integers(v: DVec3) -> [BigInt; 3] {
     let parts = v.to_array().map(|x| {
@@ -32,8 +40,12 @@ fn determinant([a, b, c]: &[BigInt; 3], [d, e, f]: &[BigInt; 3], [g, h, i]: &[Bi
     a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g)
 }
 
+fn dot(v: &[BigInt; 3], w: &[BigInt; 3]) -> BigInt {
+    v.iter().zip(w).map(|(x, y)| x * y).sum()
+}
+
 fn square(v: &[BigInt; 3]) -> BigInt {
-    v.iter().map(|x| x * x).sum()
+    dot(v, v)
 }
 
 /// Sign of a√p.

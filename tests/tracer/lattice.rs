@@ -11,32 +11,26 @@ const GATHERED_AT_A_TIME: usize = 16;
 const FIRST_STRIDE: u32 = 64;
 
 /// Fills `cache`, coarse lattices first, so that the records end up evenly spread; returns the number of rays.
-pub fn fill(gatherer: &Gatherer, tiles: &[Tile], cache: &mut Cache) -> Result<u64, GatherError> {
+pub fn fill(gatherer: &Gatherer, tiles: &[Vec<Tile>], cache: &mut Cache) -> Result<u64, GatherError> {
     let size = gatherer.view.size;
+    let first = (FIRST_STRIDE * size / 600).max(2).next_power_of_two();
     let mut rays = 0;
-    let mut stride = (FIRST_STRIDE * size / 600).max(2).next_power_of_two();
-    let mut seen = u32::MAX;
-    let on_lattice =
-        |pixel: usize, stride: u32| (pixel as u32 % size) % stride == 0 && (pixel as u32 / size) % stride == 0;
+    let mut stride = first;
     while stride > 0 {
-        let is_new = |pixel: &usize| on_lattice(*pixel, stride) && (seen == u32::MAX || !on_lattice(*pixel, seen));
         let complete = &*cache;
         let bare: Vec<usize> = tiles
             .par_iter()
+            .flatten_iter()
             .flat_map_iter(|tile| {
-                let mut pixels: Vec<usize> = tile.pixels.iter().copied().filter(is_new).collect();
-                if !pixels.is_empty() {
-                    let vicinity = complete.within(tile.lower, tile.upper);
-                    pixels.retain(|&pixel| {
-                        let surface = gatherer.surface(pixel);
-                        vicinity.irradiance(surface.position, surface.normal).is_none()
-                    });
-                }
-                pixels
+                let pixels = tile.joining(stride, first, size);
+                let vicinity = (!pixels.is_empty()).then(|| complete.within(tile.lower, tile.upper));
+                pixels.iter().copied().filter(move |&pixel| {
+                    let surface = gatherer.surface(pixel);
+                    vicinity.as_ref().is_some_and(|near| !near.covers(surface.position, surface.normal))
+                })
             })
             .collect();
         rays += gather_bare(gatherer, cache, scattered(bare))?;
-        seen = stride;
         stride /= 2;
     }
     Ok(rays)

@@ -7,7 +7,8 @@
 //!
 //! # Guarantees
 //! (1) A ray that starts in a closed room meets a surface, and the normal of the hit faces it: `tests/scene_geometry.rs`.
-//! (2) Irradiances agree with closed forms and with the radiosity of the unit cube: `tests/scene_analytic.rs`.
+//! (2) Irradiances agree with closed forms and with the radiosity of the unit cube: `tests/scene_analytic.rs`,
+//!     `tests/scene_cube.rs`.
 //! (3) One-bounce pictures agree with an independent path tracer: `tests/scene_reference.rs`.
 //! (4) The first hit is that of a naive loop over triangles: `tests/scene_naive.rs`.
 //! (5) Cameras, rays and direct light take additions, products, quotients and square roots only: the same bits on every machine.
@@ -35,6 +36,7 @@ mod wander;
 
 pub use bounces::Bounces;
 pub use camera::Camera;
+pub use corridor::Corridor;
 pub use deviation::Deviation;
 pub use gather::cosine_stratified;
 pub use light::Light;

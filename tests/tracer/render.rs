@@ -200,21 +200,51 @@ pub struct Rendering {
     pub earlier: (u64, u64),
 }
 
-/// What one pixel came to: its number, indirect radiance, standard error of the luminance, and rays of its own.
-struct Pixel {
-    number: usize,
-    indirect: DVec3,
-    standard_error: f64,
+/// Some rows of pixels of a picture in the making.
+struct Band<'a> {
+    /// Number of the first pixel.
+    first: usize,
+    indirect: &'a mut [DVec3],
+    standard_error: &'a mut [f64],
+    /// Gathers of single pixels, and their rays.
+    gathers: u64,
     rays: u64,
 }
 
-impl Pixel {
-    fn new(number: usize, surface: &Visible, irradiance: DVec3, standard_error: f64, rays: u64) -> Self {
+impl Band<'_> {
+    fn set(&mut self, pixel: usize, surface: &Visible, irradiance: DVec3, standard_error: f64) {
         let reflected = surface.reflectance * std::f64::consts::FRAC_1_PI;
         let indirect = reflected * irradiance;
         // The standard error is that of the luminance of the irradiance: it darkens as that does.
         let share = luminance(indirect) / luminance(irradiance).max(f64::MIN_POSITIVE);
-        Self { number, indirect, standard_error: standard_error * share, rays }
+        self.indirect[pixel - self.first] = indirect;
+        self.standard_error[pixel - self.first] = standard_error * share;
+    }
+
+    /// Gives a pixel a gather of its own.
+    fn gather(&mut self, gatherer: &Gatherer, pixel: usize) -> Result<(), GatherError> {
+        let vector = gatherer.gather(pixel)?;
+        self.gathers += 1;
+        self.rays += u64::from(vector.rays());
+        self.set(pixel, gatherer.surface(pixel), vector.irradiance(), vector.standard_error());
+        Ok(())
+    }
+
+    /// The pixels of a tile, from the complete cache.
+    ///
+    /// A record whose radius a later neighbour cut short may leave a pixel bare: that one gets its own gather.
+    fn read(&mut self, gatherer: &Gatherer, cache: &Cache, tile: &Tile) -> Result<(), GatherError> {
+        let vicinity = cache.within(tile.lower, tile.upper);
+        for &pixel in &tile.pixels {
+            let surface = gatherer.surface(pixel);
+            match vicinity.estimate_relaxed(surface.position, surface.normal) {
+                Some(known) if !gatherer.view.is_cramped(pixel, cache.validity().minimum()) => {
+                    self.set(pixel, surface, known.irradiance, known.standard_error);
+                }
+                _ => self.gather(gatherer, pixel)?,
+            }
+        }
+        Ok(())
     }
 }
 
@@ -222,92 +252,93 @@ impl Pixel {
 pub fn render(view: &View, settings: &Settings, progress: &(dyn Fn(u64) + Sync)) -> Result<Rendering, GatherError> {
     let gatherer = Gatherer::new(view, settings)?;
     let tiles = tiles(view);
-    let (mut rays, mut records) = (0, 0);
-    let pixels: Vec<Vec<Pixel>> = match settings.validity {
-        None => {
-            let gather = |tile: &Tile| {
-                let pixels = tile.pixels.iter().map(|&pixel| own(&gatherer, pixel));
-                pixels.inspect(|_| progress(1)).collect()
-            };
-            tiles.par_iter().map(gather).collect::<Result<_, GatherError>>()?
-        }
+    let mut rays = 0;
+    let cache = match settings.validity {
+        None => None,
         Some(validity) => {
             let mut cache = Cache::new(validity);
             if settings.seeding == Seeding::Tested {
                 rays += seeding::fill(&gatherer, &mut cache)?;
             }
             rays += lattice::fill(&gatherer, &tiles, &mut cache)?;
-            records = cache.len() as u64;
-            tiles.par_iter().map(|tile| read(&gatherer, &cache, tile, progress)).collect::<Result<_, GatherError>>()?
+            Some(cache)
         }
     };
-    let mut rendering = Rendering {
-        indirect: vec![DVec3::ZERO; view.visible.len()],
-        standard_error: vec![0.0; view.visible.len()],
-        light_vectors: records,
-        rays,
-        earlier: (0, 0),
-    };
-    rendering.earlier = gatherer.earlier();
-    for pixel in pixels.into_iter().flatten() {
-        rendering.indirect[pixel.number] = pixel.indirect;
-        rendering.standard_error[pixel.number] = pixel.standard_error;
-        rendering.light_vectors += u64::from(settings.validity.is_some() && pixel.rays > 0);
-        rendering.rays += pixel.rays;
-    }
-    Ok(rendering)
-}
-
-/// The pixels of a tile, from the complete cache.
-///
-/// A record whose radius a later neighbour cut short may leave a pixel bare: that one gets its own gather.
-fn read(
-    gatherer: &Gatherer,
-    cache: &Cache,
-    tile: &Tile,
-    progress: &(dyn Fn(u64) + Sync),
-) -> Result<Vec<Pixel>, GatherError> {
-    let vicinity = cache.within(tile.lower, tile.upper);
-    let pixels = tile.pixels.iter().map(|&pixel| {
-        let surface = gatherer.surface(pixel);
-        match vicinity.estimate_relaxed(surface.position, surface.normal) {
-            Some(known) if !gatherer.view.is_cramped(pixel, cache.validity().minimum()) => {
-                Ok(Pixel::new(pixel, surface, known.irradiance, known.standard_error, 0))
+    let pixels = view.visible.len();
+    let (mut indirect, mut standard_error) = (vec![DVec3::ZERO; pixels], vec![0.0; pixels]);
+    let band = (view.size * TILE) as usize;
+    let pieces = indirect.par_chunks_mut(band).zip(standard_error.par_chunks_mut(band)).zip(&tiles).enumerate();
+    let own: Vec<(u64, u64)> = pieces
+        .map(|(index, ((indirect, standard_error), tiles))| {
+            let mut band = Band { first: index * band, indirect, standard_error, gathers: 0, rays: 0 };
+            for tile in tiles {
+                match &cache {
+                    Some(cache) => band.read(&gatherer, cache, tile)?,
+                    None => tile.pixels.iter().try_for_each(|&pixel| band.gather(&gatherer, pixel))?,
+                }
+                progress(tile.pixels.len() as u64);
             }
-            _ => own(gatherer, pixel),
-        }
-    });
-    progress(tile.pixels.len() as u64);
-    pixels.collect()
+            Ok((band.gathers, band.rays))
+        })
+        .collect::<Result<_, GatherError>>()?;
+    let gathers: u64 = own.iter().map(|own| own.0).sum();
+    Ok(Rendering {
+        indirect,
+        standard_error,
+        light_vectors: cache.map_or(0, |cache| cache.len() as u64 + gathers),
+        rays: rays + own.iter().map(|own| own.1).sum::<u64>(),
+        earlier: gatherer.earlier(),
+    })
 }
 
-fn own(gatherer: &Gatherer, pixel: usize) -> Result<Pixel, GatherError> {
-    let vector = gatherer.gather(pixel)?;
-    let rays = u64::from(vector.rays());
-    Ok(Pixel::new(pixel, gatherer.surface(pixel), vector.irradiance(), vector.standard_error(), rays))
-}
-
-/// The lit pixels of a small square of the picture, and the box around what they show.
+/// The lit pixels of a small square of the picture, from coarse lattices to fine ones, and the box around what they show.
 pub struct Tile {
     pub pixels: Vec<usize>,
+    /// How many pixels lie on the lattice of stride 8, of 4, of 2 and of 1.
+    pub ends: [usize; 4],
     pub lower: DVec3,
     pub upper: DVec3,
 }
 
-fn tiles(view: &View) -> Vec<Tile> {
-    let across = view.size.div_ceil(TILE);
-    (0..across * across)
-        .into_par_iter()
-        .map(|tile| {
-            let side = |k: u32| k * TILE..((k + 1) * TILE).min(view.size);
-            let rows = side(tile / across);
-            let all = rows.flat_map(|y| side(tile % across).map(move |x| (y * view.size + x) as usize));
-            let pixels: Vec<usize> = all.filter(|&pixel| view.lit(pixel).is_some()).collect();
-            let places = pixels.iter().filter_map(|&pixel| view.lit(pixel)).map(|surface| surface.position);
-            let (lower, upper) = places
-                .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lower, upper), at| (lower.min(at), upper.max(at)));
-            Tile { pixels, lower, upper }
-        })
-        .filter(|tile| !tile.pixels.is_empty())
-        .collect()
+impl Tile {
+    /// The tile whose first pixel is (`x`, `y`), if it has a lit pixel.
+    fn of(view: &View, x: u32, y: u32) -> Option<Self> {
+        let side = |from: u32| from..(from + TILE).min(view.size);
+        let mut tile = Self { pixels: Vec::new(), ends: [0; 4], lower: DVec3::INFINITY, upper: DVec3::NEG_INFINITY };
+        for (level, end) in (0..4).rev().zip(0..) {
+            for y in side(y) {
+                for x in side(x).filter(|x| (x | y | TILE).trailing_zeros() == level) {
+                    let pixel = (y * view.size + x) as usize;
+                    let Some(surface) = view.lit(pixel) else { continue };
+                    tile.lower = tile.lower.min(surface.position);
+                    tile.upper = tile.upper.max(surface.position);
+                    tile.pixels.push(pixel);
+                }
+            }
+            tile.ends[end] = tile.pixels.len();
+        }
+        (!tile.pixels.is_empty()).then_some(tile)
+    }
+
+    /// The pixels on the lattice of this `stride` that no coarser one has, from the stride `first` on; both are powers of two.
+    pub fn joining(&self, stride: u32, first: u32, size: u32) -> &[usize] {
+        let is_on = |pixel: &usize, stride: u32| ((*pixel as u32 % size) | (*pixel as u32 / size)) % stride == 0;
+        let level = stride.trailing_zeros() as usize;
+        match level {
+            0..3 if stride == first => &self.pixels[..self.ends[3 - level]],
+            0..3 => &self.pixels[self.ends[2 - level]..self.ends[3 - level]],
+            _ => {
+                let corner = &self.pixels[..self.ends[0]];
+                let joins = |pixel| is_on(pixel, stride) && (stride == first || !is_on(pixel, 2 * stride));
+                if corner.iter().all(joins) { corner } else { &[] }
+            }
+        }
+    }
+}
+
+/// The tiles of a picture that have a lit pixel, row by row.
+fn tiles(view: &View) -> Vec<Vec<Tile>> {
+    let corners = |size: u32| (0..size).step_by(TILE as usize);
+    let rows: Vec<u32> = corners(view.size).collect();
+    rows.into_par_iter().map(|y| corners(view.size).filter_map(|x| Tile::of(view, x, y)).collect()).collect()
 }

@@ -1,9 +1,9 @@
 //! The numbers of the copy that is compiled for processors with vectors of four doubles and a fused multiply-add.
 
 use core::arch::x86_64::{
-    __m256d, _mm_load_sd, _mm_loadu_pd, _mm256_add_pd, _mm256_fmsub_pd, _mm256_mul_pd, _mm256_permute2f128_pd,
-    _mm256_permute4x64_pd, _mm256_set_m128d, _mm256_set1_pd, _mm256_sub_pd, _mm256_unpackhi_pd, _mm256_unpacklo_pd,
-    _mm256_xor_pd,
+    __m256d, _mm_load_sd, _mm_loadu_pd, _mm256_add_pd, _mm256_blend_pd, _mm256_fmsub_pd, _mm256_mul_pd,
+    _mm256_permute2f128_pd, _mm256_permute4x64_pd, _mm256_set_m128d, _mm256_set1_pd, _mm256_setr_pd, _mm256_sub_pd,
+    _mm256_unpackhi_pd, _mm256_unpacklo_pd, _mm256_xor_pd,
 };
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -89,6 +89,18 @@ impl Number for Register {
 }
 
 impl Four<Fused> for Register {
+    #[inline(always)]
+    fn new([x, y, z, w]: [f64; 4]) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm256_setr_pd(x, y, z, w) })
+    }
+
+    #[inline(always)]
+    fn after(self, before: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm256_permute4x64_pd::<0b10_01_00_11>(_mm256_blend_pd::<0b1000>(self.0, before.0)) })
+    }
+
     #[inline(always)]
     fn vector(v: &[f64; 3]) -> Self {
         let start = v.as_ptr();
