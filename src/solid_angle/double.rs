@@ -6,8 +6,9 @@
 //! the product exceeds 2⁻⁹⁶⁹). The other operations lose a few u² of the magnitudes that enter them.
 //!
 //! Everything is generic over the [`Number`] that the two halves are. `f64` takes the low half of a product with Veltkamp's
-//! splitting, `Fused` with one fused multiply-add; both are exact, so the bits are the same. A number that records its own
-//! operations turns the same source into the script of a proof: docs/proofs/README.md.
+//! splitting, `Fused` with one fused multiply-add; both are exact, so the bits are the same. Where a half would underflow
+//! (products below 2⁻⁹⁶⁹) both take the fused one, rounded once to what is left of the range: the same bits there too.
+//! A number that records its own operations turns the same source into the script of a proof: docs/proofs/README.md.
 //!
 //! # Source
 //!

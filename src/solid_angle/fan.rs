@@ -377,6 +377,29 @@ mod tests {
         assert_eq!(fan(&equator).half.value(), PI);
     }
 
+    #[test]
+    fn what_a_check_would_find_is_never_taken_unchecked() {
+        let v = |x: f64, y: f64, z: f64| DVec3::new(x, y, z).normalize();
+        let (a, b, c, d) = (v(1.0, 0.2, 0.1), v(0.3, 1.0, -0.2), v(-0.4, 0.9, 0.5), v(0.2, 0.1, 1.0));
+        // The same direction, not the same bits.
+        let longer = DVec3::new(0.0, 1.0 + 2.0 * f64::EPSILON, 0.0);
+        let offences = [
+            vec![a, b, c, d, c],             // walked back
+            vec![a, DVec3::Y, c, longer, d], // likewise
+            vec![a, b, b, c, d],             // repeated
+            vec![a, b, -b, c, d],            // no edge
+            vec![a, b, c * (1.0 + 1e-11), d],
+            vec![a, b, c, DVec3::NAN],
+        ];
+        assert!(unchecked(&[a, b, c, d]).is_some());
+        for mut vertices in offences {
+            for _ in 0..vertices.len() {
+                vertices.rotate_left(1);
+                assert!(unchecked(&vertices).is_none(), "{vertices:?}");
+            }
+        }
+    }
+
     #[cfg(target_arch = "x86_64")]
     fn checked(vertices: &[DVec3]) -> Loop<'_> {
         Loop { vertices, checked: true }
