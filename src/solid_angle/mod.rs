@@ -28,6 +28,10 @@
 //!    number of vertices: tests/solid_angle_laws.rs.
 //! 6. The bits of a result do not depend on the machine: arithmetic and correctly rounded functions only.
 //!
+//! Proved by machine are the kernel of one triangle and one multiplication, see docs/proofs/README.md, which also says what is
+//! outside: the product of many factors, the arctangent, moments, projections, [`seen_from`] and [`geographic_polygon`] are
+//! searched against exact values, not proved.
+//!
 //! # Not here
 //!
 //! - Vectors of other lengths: [`seen_from`] the origin takes their exact directions.
