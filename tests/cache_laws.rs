@@ -323,6 +323,20 @@ fn gradients_carry_a_slope_from_record_to_record_up_to_the_second_order() {
     assert!(with <= 1.0 && without > 2.0, "{without} without gradients, {with} with them");
 }
 
+#[test]
+fn the_faintest_light_is_stored() {
+    // Subnormal numbers round as coarsely as they like: n·Φ is not the luminance of E to a part in a million.
+    let mut cache = Cache::new(Validity::new(0.3, 0.1, 1.0).unwrap());
+    for (step, radiance) in [5e-324, 4e-323, 1e-310, 1e-308].into_iter().enumerate() {
+        let mut sky = |_: DVec3| Sample { radiance: DVec3::splat(radiance), distance: 1.0 };
+        let frame = Frame::new(DVec3::new(0.36, 0.48, 0.8)).unwrap();
+        let gather = AdaptiveSampler::stratified(7).unwrap().gather(frame, &mut sky, &mut seeds::rng(9)).unwrap();
+        assert_eq!(gather.validate(), Ok(()), "{radiance:e}");
+        cache.insert(DVec3::X * step as f64, frame.normal(), *gather.vector()).unwrap();
+    }
+    assert_eq!((cache.len(), cache.validate()), (4, Ok(())));
+}
+
 /// Squares of distances like these are zero, so that records far out of each other's reach seem to lie in one place.
 #[test]
 fn a_scene_smaller_than_squares_can_tell_is_refused() {

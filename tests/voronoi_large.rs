@@ -60,7 +60,7 @@ fn corners_are_equally_far_from_their_sites_and_nearer_to_none() {
             diagram.cells().filter(|cell| cell.owner() == cell.site()).map(|cell| cell.direction()).collect();
         // About a thousand cells: each corner is compared with all sites.
         for cell in diagram.cells().step_by(diagram.len().div_ceil(1000)) {
-            for (k, &corner) in cell.vertices().iter().enumerate() {
+            for (k, corner) in cell.vertices().enumerate() {
                 let cosine = corner.dot(cell.direction());
                 let edges = cell.neighbors();
                 for &id in [edges[k], edges[(k + edges.len() - 1) % edges.len()]].iter().filter(|&&id| id != HORIZON) {
@@ -103,7 +103,7 @@ fn the_nearest_site_owns_the_cell() {
             if owners().any(|i| i != nearest && cosine(i) >= cosine(nearest) - bound("nearest", "*")) {
                 continue;
             }
-            let corners = diagram.cell(nearest).vertices();
+            let corners: Vec<DVec3> = diagram.cell(nearest).vertices().collect();
             for (k, &start) in corners.iter().enumerate() {
                 let height = start.cross(corners[(k + 1) % corners.len()]).dot(query);
                 assert!(

@@ -31,7 +31,7 @@ fn queries(diagram: &Diagram, sites: &[DVec3], rng: &mut Pcg64) -> Vec<DVec3> {
         let level = DVec3::new(1.0, 1.0, 0.0);
         let cell = diagram.cell(rng.random_range(0..sites.len()));
         queries.extend([sites::direction(rng), a, -a, p + q, p * level, p + 1e-15 * sites::direction(rng)]);
-        queries.extend(cell.vertices().iter().take(3));
+        queries.extend(cell.vertices().take(3));
     }
     queries.retain(|query| query.is_finite() && *query != DVec3::ZERO && is_exact(query));
     queries

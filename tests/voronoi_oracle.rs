@@ -55,8 +55,8 @@ fn solid_angles_are_right() {
                 let allowed = bound("solid_angle", &case.name);
                 assert!(error <= allowed, "{what}, cell {i}: got {got}, want {want} within {allowed}");
                 worst = worst.max(error);
-                let corners = diagram.cell(i).vertices();
-                if corners.len() > 2 && width(corners) < bound("narrow", &case.name) {
+                let corners: Vec<DVec3> = diagram.cell(i).vertices().collect();
+                if corners.len() > 2 && width(&corners) < bound("narrow", &case.name) {
                     let (error, allowed) = (error / want, bound("solid_angle", "narrow"));
                     assert!(error <= allowed, "{what}, narrow cell {i}: got {got}, want {want} within {allowed} of it");
                     worst_narrow = worst_narrow.max(error);

@@ -42,7 +42,7 @@ fn assert_inside(diagram: &Diagram, index: usize, x: DVec3) {
         };
         assert!(height >= -allowed, "{x} is {height} beyond edge {neighbor} of cell {index}, allowed {allowed}");
     }
-    let corners = cell.vertices();
+    let corners: Vec<DVec3> = cell.vertices().collect();
     let allowed = bound("inside", "*");
     for (k, &start) in corners.iter().enumerate() {
         let end = corners[(k + 1) % corners.len()];

@@ -62,14 +62,14 @@ proptest! {
     fn cells_have_the_solid_angle_and_moment_of_their_polygon(n in 8..200usize, seed: u64) {
         let sites = sites::make(sites::Kind::Uniform, n, &mut sites::rng(seed));
         for cell in voronoi::hemisphere(&sites, DVec3::Z).expect("sites are valid").cells() {
-            let corners = cell.vertices();
+            let corners: Vec<DVec3> = cell.vertices().collect();
             if corners.len() < 3 {
                 continue;
             }
-            let want = solid_angle::polygon(corners).expect("corners are unit vectors");
+            let want = solid_angle::polygon(&corners).expect("corners are unit vectors");
             let allowed = bound("polygon", "solid_angle");
             prop_assert!((cell.solid_angle() - want).abs() <= allowed, "got {}, want {want}", cell.solid_angle());
-            let want = solid_angle::vector_moment(corners).expect("corners are unit vectors");
+            let want = solid_angle::vector_moment(&corners).expect("corners are unit vectors");
             let allowed = bound("polygon", "vector_moment");
             prop_assert!((cell.vector_moment() - want).length() <= allowed, "got {}, want {want}", cell.vector_moment());
         }
@@ -98,7 +98,7 @@ fn thousands_of_sites_in_hard_places_are_valid() {
 fn one_cell_is_everything() {
     let sphere = voronoi::sphere(&[DVec3::X]).expect("a site");
     assert_eq!((sphere.solid_angles(), sphere.vector_moments()), ([2.0 * TAU].as_slice(), [DVec3::ZERO].as_slice()));
-    assert!(sphere.cell(0).vertices().is_empty() && sphere.cell(0).neighbors().is_empty());
+    assert!(sphere.vertices().is_empty() && sphere.neighbors().is_empty());
     let dome = voronoi::hemisphere(&[DVec3::X], DVec3::Z).expect("a site");
     assert_eq!((dome.solid_angles(), dome.vector_moments()), ([TAU].as_slice(), [PI * DVec3::Z].as_slice()));
     assert_eq!(dome.cell(0).neighbors(), [voronoi::HORIZON]);
@@ -109,7 +109,7 @@ fn three_sites_own_lunes() {
     let sphere = voronoi::sphere(&[DVec3::X, DVec3::Y, DVec3::NEG_X]).expect("sites are valid");
     assert_eq!(sphere.solid_angles(), [1.5 * PI, PI, 1.5 * PI]);
     assert_eq!(sphere.cell(1).vertices().len(), 2);
-    assert_eq!(sphere.cell(0).vertices()[0], -sphere.cell(0).vertices()[1]);
+    assert_eq!(sphere.vertices(), [DVec3::NEG_Z, DVec3::Z]);
 }
 
 #[test]

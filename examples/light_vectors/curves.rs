@@ -72,12 +72,12 @@ pub fn draw(path: &Path, scene: &str, size: u32, curves: &[Curve]) -> Result<(),
         chart
             .configure_mesh()
             .light_line_style(RGBColor(235, 235, 235))
-            .x_labels(20)
-            .y_labels(20)
+            .x_labels(60)
+            .y_labels(60)
             .x_desc(what)
             .y_desc("RMSE / mean")
-            .x_label_formatter(&|x| if *x >= 1e3 { format!("{x:.0e}") } else { format!("{x}") })
-            .y_label_formatter(&|y| format!("{:.3} %", 100.0 * y).replace(".000", ""))
+            .x_label_formatter(&|x| label(*x))
+            .y_label_formatter(&|y| label(100.0 * y) + if label(100.0 * y).is_empty() { "" } else { " %" })
             .label_style(("sans-serif", 14))
             .axis_desc_style(("sans-serif", 15))
             .draw()?;
@@ -95,4 +95,17 @@ pub fn draw(path: &Path, scene: &str, size: u32, curves: &[Curve]) -> Result<(),
     }
     root.present()?;
     Ok(())
+}
+
+/// The label of a tick: of 1, 2 and 5 times the powers of ten, of others nothing.
+fn label(x: f64) -> String {
+    let power = (x.log10() + 1e-9).floor();
+    let digit = x / 10_f64.powf(power);
+    if ![1.0, 2.0, 5.0].iter().any(|tick| (digit - tick).abs() < 1e-6) {
+        String::new()
+    } else if power >= 3.0 {
+        format!("{x:.0e}")
+    } else {
+        format!("{x:.*}", (-power).max(0.0) as usize)
+    }
 }

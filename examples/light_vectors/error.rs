@@ -2,7 +2,7 @@
 
 use std::{fmt, io, path::PathBuf};
 
-use steradian::ilv::{GatherError, RefinementError, SamplerError, ValidityError};
+use steradian::ilv::{GatherError, PilotError, RefinementError, SamplerError, ValidityError};
 
 /// A failure of the job.
 #[derive(Debug)]
@@ -19,6 +19,8 @@ pub enum JobError {
     Threads(rayon::ThreadPoolBuildError),
     /// The sampler was refused.
     Sampler(SamplerError),
+    /// The pilot was refused.
+    Pilot(PilotError),
     /// The rule of splitting was refused.
     Refinement(RefinementError),
     /// A plot could not be drawn.
@@ -42,6 +44,7 @@ impl fmt::Display for JobError {
             Self::Sampler(error) => write!(f, "{error}"),
             Self::Refinement(error) => write!(f, "{error}"),
             Self::Page(error) => write!(f, "cannot write the page: {error}"),
+            Self::Pilot(error) => write!(f, "{error}"),
             Self::Plot(error) => write!(f, "cannot draw the curves: {error}"),
             Self::Validity(error) => write!(f, "{error}"),
             Self::Gather(error) => write!(f, "{error}"),
@@ -72,6 +75,12 @@ impl From<ValidityError> for JobError {
 impl From<GatherError> for JobError {
     fn from(error: GatherError) -> Self {
         Self::Gather(error)
+    }
+}
+
+impl From<PilotError> for JobError {
+    fn from(error: PilotError) -> Self {
+        Self::Pilot(error)
     }
 }
 

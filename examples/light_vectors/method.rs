@@ -1,6 +1,6 @@
 //! The methods that are compared.
 
-use steradian::ilv::{AdaptiveSampler, Refinement, Validity};
+use steradian::ilv::{AdaptiveSampler, Pilot, Refinement, Validity};
 
 use crate::{
     LIGHT_GRID,
@@ -40,8 +40,8 @@ pub fn settings(method: MethodName, scene: &Scene, options: &Options) -> Result<
             AdaptiveSampler::stratified(options.stratified_rays)?
         }
         MethodName::Lattice => AdaptiveSampler::lattice(options.stratified_rays)?,
-        MethodName::Default => AdaptiveSampler::default(),
-        MethodName::Unbiased => AdaptiveSampler::unbiased(),
+        MethodName::Default => aiming_at(AdaptiveSampler::default(), options.tolerance)?,
+        MethodName::Unbiased => aiming_at(AdaptiveSampler::unbiased(), options.tolerance)?,
     };
     let validity = match method {
         MethodName::Brute => None,
@@ -73,6 +73,14 @@ pub fn settings(method: MethodName, scene: &Scene, options: &Options) -> Result<
 /// Ward's rule of 1988: no gradients, radii between 1 % and 30 % of the scene.
 fn ward(accuracy: f64, scene: &Scene) -> Result<Validity, JobError> {
     Ok(Validity::new(accuracy, 0.01 * scene.size, 0.3 * scene.size)?.gradients(false))
+}
+
+/// The same sampler with another tolerance of its pilot.
+fn aiming_at(sampler: AdaptiveSampler, tolerance: f64) -> Result<AdaptiveSampler, JobError> {
+    Ok(match sampler.piloting() {
+        Some(pilot) => sampler.pilot(Pilot::new(pilot.rays(), tolerance, pilot.most())?),
+        None => sampler,
+    })
 }
 
 /// The rule of the paper with one split instead of three.

@@ -62,6 +62,10 @@ pub struct Options {
     #[arg(long, default_value_t = 208, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     pub stratified_rays: u32,
 
+    /// Standard error at which `default` and `unbiased` aim, relative to the irradiance
+    #[arg(long, default_value_t = 0.04, value_parser = parse_tolerance)]
+    pub tolerance: f64,
+
     /// Rays per pixel of the reference
     #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(2..=1_048_576))]
     pub reference_rays: u32,
@@ -105,6 +109,13 @@ fn parse_accuracy(text: &str) -> Result<f64, String> {
     let accuracy: f64 = text.parse().map_err(|error| format!("{error}"))?;
     steradian::ilv::Validity::for_scene(accuracy, 1.0).map_err(|error| error.to_string())?;
     Ok(accuracy)
+}
+
+fn parse_tolerance(text: &str) -> Result<f64, String> {
+    let tolerance: f64 = text.parse().map_err(|error| format!("{error}"))?;
+    let fewest = steradian::ilv::Pilot::FEWEST_RAYS;
+    steradian::ilv::Pilot::new(fewest, tolerance, fewest).map_err(|error| error.to_string())?;
+    Ok(tolerance)
 }
 
 fn parse_threads(text: &str) -> Result<usize, String> {

@@ -91,6 +91,7 @@ fn sweep(name: SceneName, options: &Options) -> Result<Sweep, JobError> {
         curves.last_mut().into_iter().filter(|_| point.rmse > 0.0).for_each(|curve| curve.points.push(point));
     }
     if !peer.is_empty() {
+        peer.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
         curves.push(Curve { name: "Radiance", points: peer });
     }
     Ok(Sweep { scene: name, rows, curves })
@@ -117,6 +118,10 @@ fn variations(method: MethodName, options: &Options) -> Vec<Options> {
         MethodName::Gradients | MethodName::Lattice | MethodName::Seeded => {
             [(1.0, 104), (0.7, 104), (0.7, 208), (0.5, 208), (0.5, 416), (0.35, 832)].map(|(a, n)| with(a, n)).to_vec()
         }
-        MethodName::Default | MethodName::Unbiased => [1.0, 0.7, 0.5, 0.35, 0.25].map(|a| with(a, 1)).to_vec(),
+        MethodName::Default | MethodName::Unbiased => {
+            [(1.0, 0.04), (0.7, 0.04), (0.5, 0.04), (0.35, 0.03), (0.25, 0.02)]
+                .map(|(a, tolerance)| Options { tolerance, ..with(a, 1) })
+                .to_vec()
+        }
     }
 }

@@ -53,7 +53,7 @@ pub(super) fn of_diagram(diagram: &Diagram, rays: &[Ray], normal: DVec3) -> [DVe
     let mut gradient = Gradient::default();
     for (index, ray) in rays.iter().enumerate() {
         let cell = diagram.cell(index);
-        let vertices = cell.vertices();
+        let corners = cell.vertex_indices();
         let normal_of_edges = normal.cross(ray.direction);
         for (edge, &neighbor) in cell.neighbors().iter().enumerate() {
             // Every edge has two cells.
@@ -61,7 +61,8 @@ pub(super) fn of_diagram(diagram: &Diagram, rays: &[Ray], normal: DVec3) -> [DVe
                 continue;
             }
             let other = &rays[neighbor as usize];
-            let along = vertices[if edge + 1 < vertices.len() { edge + 1 } else { 0 }] - vertices[edge];
+            let vertex = |corner: usize| diagram.vertices()[corners[corner] as usize];
+            let along = vertex(if edge + 1 < corners.len() { edge + 1 } else { 0 }) - vertex(edge);
             // N = d/|d| with d from one site to the other, and ∫ ω dl = N × (b − a) over the arc from a to b.
             let apart = other.direction - ray.direction;
             let height = (normal.cross(other.direction) - normal_of_edges).dot(along);

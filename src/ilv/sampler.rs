@@ -91,8 +91,8 @@ impl Default for AdaptiveSampler {
     /// stratification with as many in irradiance, and 0.23, 0.24 and 0.35 times in direction; it is too dark by 0.1 % to 0.2 %. A constant field is exact
     /// after the pilot. What it cannot see is what the pilot missed: a lone source of a hundredth of the hemisphere is
     /// 2 % too dark in the mean. Where rays are cheap and only the irradiance counts, more of a [`lattice`](AdaptiveSampler::lattice)
-    /// have a smaller error in the same time: `docs/ilv.md` has the tables. [`Weights::VoronoiMoment`] takes a fifth off the error
-    /// of the irradiance for the same rays, and twice their time.
+    /// have a smaller error in the same time: `docs/ilv.md` has the tables. [`Weights::VoronoiMoment`] takes about a fifth off the error
+    /// of the irradiance for the same rays, and more than twice the time.
     fn default() -> Self {
         Self {
             map: CellMap::Balanced,

@@ -17,8 +17,9 @@ pub enum Weights {
     /// An equal share of the ray's leaf: m = ω Ω/n over cells of equal solid angle, the share of the cell's vector moment
     /// over cells of equal projected solid angle.
     ///
-    /// When the cells do not depend on the radiances the irradiance is unbiased, and over cells of equal solid angle so
-    /// is Φ. Over projected ones the tangent part of Φ is that of a field constant over each cell.
+    /// The irradiance is unbiased when the cells do not depend on the radiances, or when a [`Pilot`](super::Pilot) chose them: its
+    /// rays then have no part in it. Over cells of equal solid angle so is Φ; over projected ones the tangent part of Φ is that of a
+    /// field constant over each cell.
     LeafMeasure,
     /// An equal share of the vector moment ∫ ω dω of the ray's cell, which is exact in a constant field. With a
     /// [`Pilot`](super::Pilot), whose rays count, the cells are those of its grid and of the grid that follows, each with its share.
@@ -38,8 +39,7 @@ pub enum Weights {
     VoronoiMoment,
     /// The projected solid angle of the ray's share of its leaf along the normal, the Voronoi moment across it.
     ///
-    /// The irradiance is unbiased when the cells do not depend on the radiances, or when a [`Pilot`](super::Pilot) chose
-    /// them: its rays then have no part in the irradiance. The tangent part of Φ is that of
+    /// The irradiance is that of [`LeafMeasure`](Self::LeafMeasure), the tangent part of Φ that of
     /// [`VoronoiMoment`](Self::VoronoiMoment).
     MeasureAndVoronoi,
 }

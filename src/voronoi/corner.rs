@@ -7,20 +7,11 @@
 
 use glam::DVec3;
 
-use super::ray::Ray;
-
-/// A corner: the unit vector `unit + rest`, and what is known of it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct FacetCorner {
-    pub unit: DVec3,
-    /// Square of the distance from the sites.
-    pub square: f64,
-    rest: [f32; 3],
-    pub class: Class,
-}
+use super::hull::Facet;
+use super::sites::Sites;
 
 /// Where a corner is, as bits, of which a cell collects those of all its corners.
-pub(super) type Class = u8;
+pub(super) type Class = u32;
 
 /// Certainly above the horizon, or there is none.
 pub(super) const ABOVE: Class = 1;
@@ -28,11 +19,13 @@ pub(super) const ABOVE: Class = 1;
 pub(super) const BELOW: Class = 2;
 /// Not known well enough for doubles.
 pub(super) const SPECIAL: Class = 4;
+/// Beside `SPECIAL`: has been computed otherwise, in place of the facet's plane.
+pub(super) const SET: Class = 8;
 
 /// Corners of smaller sine than this between the facet's edges are not for doubles.
 const SHARP: f64 = 0.25;
 
-/// Nor facets of shorter edges than 2⁻²⁰: the rest has 24 bits, 2⁻⁷⁸.
+/// Nor facets of shorter edges than 2⁻²⁰: offsets of sites are right to 2⁻⁷⁶.
 const SHORT: f64 = 1.0 / (1u64 << 20) as f64;
 
 /// Nor those whose circle has a larger sine: cosines from 0.6.
@@ -46,78 +39,68 @@ const BATCH: usize = 16;
 
 /// The corners of a batch of facets.
 struct Batch<const N: usize> {
-    /// The first site, as a sum of two, and the edges from there.
+    /// The first site, the edges from there, and the corner less the site.
     site: [[f64; N]; 3],
-    site_rest: [[f64; N]; 3],
     d: [[f64; N]; 3],
     e: [[f64; N]; 3],
-    unit: [[f64; N]; 3],
-    rest: [[f64; N]; 3],
-    square: [f64; N],
+    offset: [[f64; N]; 3],
     /// Component of d × e along the pole, over |d| |e|: its square, with its sign.
     height: [f64; N],
-    /// Not negative if doubles will do.
+    /// Not negative if edges are long enough, and if doubles will do for the rest.
+    length: [f64; N],
     quality: [f64; N],
 }
 
-/// Sets `corners` to those of facets, whose sites are counter-clockwise seen from outside.
-pub(super) fn set_corners(
-    facets: impl ExactSizeIterator<Item = [u32; 3]>,
-    rays: &[Ray],
-    pole: Option<DVec3>,
-    corners: &mut Vec<FacetCorner>,
-) {
+/// Sets the mark of each facet to the class of its corner, and its plane, if the class is `ABOVE`, to that corner less the
+/// facet's first site.
+pub(super) fn set_corners(facets: &mut [Facet], planes: &mut [DVec3], sites: Sites<'_>, pole: Option<DVec3>) {
     let mut batch = Batch::<BATCH>::ZERO;
-    let mut sites = [[0; 3]; BATCH];
-    let mut facets = facets.fuse();
-    corners.clear();
-    corners.reserve(facets.len());
-    while facets.len() > 0 {
-        let count = facets.len().min(BATCH);
-        for (lane, (slot, facet)) in sites.iter_mut().zip(facets.by_ref().take(BATCH)).enumerate() {
-            *slot = facet;
-            let [a, b, c] = facet.map(|site| &rays[site as usize]);
-            batch.load(lane, a, b.offset(a), c.offset(a));
+    for (facets, planes) in facets.chunks_mut(BATCH).zip(planes.chunks_mut(BATCH)) {
+        for (lane, facet) in facets.iter().enumerate() {
+            let [a, b, c] = facet.sites;
+            batch.load(lane, sites.unit(a), sites.offset(b, a), sites.offset(c, a));
         }
         batch.compute(pole.unwrap_or(DVec3::ZERO));
-        for (lane, facet) in sites[..count].iter().enumerate() {
-            corners.push(batch.corner(lane, pole.is_some()).unwrap_or_else(|| {
-                let [a, b, c] = facet.map(|site| &rays[site as usize]);
-                from_other_sites(a, b, c, pole)
-            }));
+        for (lane, (facet, plane)) in facets.iter_mut().zip(planes).enumerate() {
+            let corner = batch.corner(lane, pole.is_some());
+            let (class, offset) = corner.unwrap_or_else(|| from_other_sites(facet.sites, sites, pole));
+            facet.mark = class;
+            if class == ABOVE {
+                *plane = offset;
+            }
         }
     }
 }
 
 /// The corner of a facet that is not one for its first site.
 #[cold]
-fn from_other_sites(a: &Ray, b: &Ray, c: &Ray, pole: Option<DVec3>) -> FacetCorner {
+fn from_other_sites([a, b, c]: [u32; 3], sites: Sites<'_>, pole: Option<DVec3>) -> (Class, DVec3) {
     let mut batch = Batch::<2>::ZERO;
-    batch.load(0, b, c.offset(b), a.offset(b));
-    batch.load(1, c, a.offset(c), b.offset(c));
+    batch.load(0, sites.unit(b), sites.offset(c, b), sites.offset(a, b));
+    batch.load(1, sites.unit(c), sites.offset(a, c), sites.offset(b, c));
     batch.compute(pole.unwrap_or(DVec3::ZERO));
-    let corner = |lane| batch.corner(lane, pole.is_some());
-    corner(0).or_else(|| corner(1)).unwrap_or(FacetCorner::UNKNOWN)
+    let corner = |lane, site| {
+        let (class, offset) = batch.corner(lane, pole.is_some())?;
+        Some((class, offset + sites.offset(site, a)))
+    };
+    corner(0, b).or_else(|| corner(1, c)).unwrap_or((SPECIAL, DVec3::ZERO))
 }
 
 impl<const N: usize> Batch<N> {
     const ZERO: Self = Self {
         site: [[0.0; N]; 3],
-        site_rest: [[0.0; N]; 3],
         d: [[0.0; N]; 3],
         e: [[0.0; N]; 3],
-        unit: [[0.0; N]; 3],
-        rest: [[0.0; N]; 3],
-        square: [0.0; N],
+        offset: [[0.0; N]; 3],
         height: [0.0; N],
+        length: [0.0; N],
         quality: [0.0; N],
     };
 
     #[inline(always)]
-    fn load(&mut self, lane: usize, site: &Ray, d: DVec3, e: DVec3) {
+    fn load(&mut self, lane: usize, site: DVec3, d: DVec3, e: DVec3) {
         for k in 0..3 {
-            self.site[k][lane] = site.unit[k];
-            self.site_rest[k][lane] = site.rest[k];
+            self.site[k][lane] = site[k];
             self.d[k][lane] = d[k];
             self.e[k][lane] = e[k];
         }
@@ -135,44 +118,31 @@ impl<const N: usize> Batch<N> {
             let cosine = (1.0 - sine_squared).sqrt();
             let rise = sine_squared / (1.0 + cosine);
             let offset = (x + site * rise) * (1.0 / cosine);
-            let unit = site + offset;
-            // The difference is right to the last place of the offset.
-            let rest = (offset - (unit - site)) + of(&self.site_rest);
-            for (j, (unit, rest)) in unit.to_array().into_iter().zip(rest.to_array()).enumerate() {
-                (self.unit[j][k], self.rest[j][k]) = (unit, rest);
+            for (j, offset) in offset.to_array().into_iter().enumerate() {
+                self.offset[j][k] = offset;
             }
-            self.square[k] = 2.0 * rise;
             let product = dd * ee;
             self.height[k] = height * height.abs() / product;
-            let least = |a: f64, b: f64| if a < b { a } else { b };
-            // `SHORT` holds for the shorter edge, as the longer one is at most 2.
-            let shape = least(nn - SHARP * SHARP * product, least(dd, ee) - SHORT * SHORT);
+            self.length[k] = least(dd, ee) - SHORT * SHORT;
+            let shape = nn - SHARP * SHARP * product;
             self.quality[k] = least(shape, least(WIDE * WIDE - sine_squared, n.dot(site)));
         }
     }
 
-    /// None if doubles are not enough.
+    /// The class and the corner less the site; none if doubles are not enough.
     #[inline(always)]
-    fn corner(&self, lane: usize, has_horizon: bool) -> Option<FacetCorner> {
-        let of = |v: &[[f64; N]; 3]| DVec3::new(v[0][lane], v[1][lane], v[2][lane]);
-        if has_horizon && self.height[lane] < -NEAR_HORIZON * NEAR_HORIZON {
-            return Some(FacetCorner { class: BELOW, ..FacetCorner::UNKNOWN });
+    fn corner(&self, lane: usize, has_horizon: bool) -> Option<(Class, DVec3)> {
+        if has_horizon && self.height[lane] < -NEAR_HORIZON * NEAR_HORIZON && self.length[lane] >= 0.0 {
+            return Some((BELOW, DVec3::ZERO));
         }
         let uncertain = has_horizon && self.height[lane] < NEAR_HORIZON * NEAR_HORIZON;
-        let good = self.quality[lane] >= 0.0 && !uncertain;
-        let rest = of(&self.rest);
-        let rest = [rest.x as f32, rest.y as f32, rest.z as f32];
-        good.then(|| FacetCorner { unit: of(&self.unit), square: self.square[lane], rest, class: ABOVE })
+        let good = least(self.length[lane], self.quality[lane]) >= 0.0 && !uncertain;
+        good.then(|| (ABOVE, DVec3::new(self.offset[0][lane], self.offset[1][lane], self.offset[2][lane])))
     }
 }
 
-impl FacetCorner {
-    const UNKNOWN: Self = Self { unit: DVec3::ZERO, square: 0.0, rest: [0.0; 3], class: SPECIAL };
-
-    /// The corner less a site.
-    #[inline]
-    pub fn offset(&self, site: &Ray) -> DVec3 {
-        let [x, y, z] = self.rest;
-        (self.unit - site.unit) + (DVec3::new(x.into(), y.into(), z.into()) - site.rest)
-    }
+/// The smaller one; of NaN and a number the number.
+#[inline(always)]
+fn least(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
 }

@@ -1,5 +1,7 @@
 //! The finished diagram.
 
+use core::ops::Range;
+
 use glam::DVec3;
 
 /// In place of a site's index: what lies across an edge on the horizon of a hemisphere.
@@ -8,28 +10,46 @@ pub const HORIZON: u32 = u32::MAX;
 /// A Voronoi diagram of the sphere or of a hemisphere, made by [`sphere`](super::sphere),
 /// [`hemisphere`](super::hemisphere) or a [`Builder`](super::Builder).
 ///
-/// Cells are in the order of the sites, and all vertices and neighbours lie in two flat arrays.
+/// Cells go by the index of their site. Their outlines lie one after another in two flat arrays,
+/// [`neighbors`](Self::neighbors) and [`vertex_indices`](Self::vertex_indices), of which [`outline`](Self::outline) gives
+/// the part of each cell; every corner is once in [`vertices`](Self::vertices), whatever the number of its cells.
+///
+/// # Examples
+///
+/// ```
+/// use steradian::{glam::DVec3, voronoi};
+///
+/// let tetrahedron = [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]].map(|v| DVec3::from_array(v.map(f64::from)));
+/// let diagram = voronoi::sphere(&tetrahedron)?;
+/// assert_eq!(diagram.vertices().len(), 4);
+/// let outline = diagram.outline(0);
+/// for (&neighbor, &vertex) in diagram.neighbors()[outline.clone()].iter().zip(&diagram.vertex_indices()[outline]) {
+///     let corner = diagram.vertices()[vertex as usize];
+///     assert!(corner.dot(tetrahedron[0] - tetrahedron[neighbor as usize]).abs() < 1e-15);
+/// }
+/// # Ok::<(), voronoi::VoronoiError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Diagram {
-    pole: Option<DVec3>,
-    solid_angles: Vec<f64>,
-    vector_moments: Vec<DVec3>,
-    /// Where the record of each site is.
-    places: Vec<u32>,
-    records: Vec<Record>,
-    neighbors: Vec<u32>,
-    vertices: Vec<DVec3>,
+    pub(super) pole: Option<DVec3>,
+    pub(super) solid_angles: Vec<f64>,
+    pub(super) vector_moments: Vec<DVec3>,
+    pub(super) records: Vec<Record>,
+    /// Unit vectors of the sites along the curve.
+    pub(super) directions: Vec<DVec3>,
+    /// The lowest index with each site's direction; nothing if no two sites have the same one.
+    pub(super) owners: Vec<u32>,
+    pub(super) neighbors: Vec<u32>,
+    pub(super) vertex_indices: Vec<u32>,
+    pub(super) vertices: Vec<DVec3>,
 }
 
-/// A site, and where its edges and corners are in the arrays of all.
+/// Where the direction of a site and the outline of its cell are in the arrays of all.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Record {
-    direction: DVec3,
-    owner: u32,
-    edges: u32,
-    corners: u32,
-    edge_count: u32,
-    corner_count: u32,
+pub(super) struct Record {
+    pub place: u32,
+    pub start: u32,
+    pub count: u32,
 }
 
 /// The cell of a site.
@@ -39,15 +59,18 @@ pub struct Cell<'a> {
     index: usize,
 }
 
+/// In place of a vertex's index: the one edge of a cell without corners.
+pub(super) const NO_VERTEX: u32 = u32::MAX;
+
 impl Diagram {
     /// Number of sites; each has a cell, if an empty one.
     pub fn len(&self) -> usize {
-        self.places.len()
+        self.records.len()
     }
 
     /// Whether there is no site: true only of [`Diagram::default`].
     pub fn is_empty(&self) -> bool {
-        self.places.is_empty()
+        self.records.is_empty()
     }
 
     /// The cell of site `index`.
@@ -80,78 +103,58 @@ impl Diagram {
         self.pole
     }
 
-    fn record(&self, index: usize) -> &Record {
-        &self.records[self.places[index] as usize]
+    /// Where the outline of cell `index` is in [`neighbors`](Self::neighbors) and [`vertex_indices`](Self::vertex_indices).
+    ///
+    /// # Panics
+    ///
+    /// If `index` is not below [`len`](Self::len), as in a slice.
+    pub fn outline(&self, index: usize) -> Range<usize> {
+        let Record { start, count, .. } = self.records[index];
+        start as usize..start as usize + count as usize
+    }
+
+    /// The sites across the edges of all cells, or [`HORIZON`], outline by outline.
+    pub fn neighbors(&self) -> &[u32] {
+        &self.neighbors
+    }
+
+    /// Where the corners at the start of these edges are in [`vertices`](Self::vertices); `u32::MAX` for the edge of a
+    /// hemisphere, which has none.
+    pub fn vertex_indices(&self) -> &[u32] {
+        &self.vertex_indices
+    }
+
+    /// The corners of all cells, each once, unit vectors.
+    pub fn vertices(&self) -> &[DVec3] {
+        &self.vertices
     }
 
     /// Makes room for the cells of `len` sites, all empty.
     pub(super) fn reset(&mut self, pole: Option<DVec3>, len: usize) {
         self.pole = pole;
-        self.places.resize(len, 0);
-        self.records.clear();
-        self.neighbors.clear();
-        self.vertices.clear();
-    }
-
-    /// Adds the record of site `index` after the others.
-    pub(super) fn push_site(&mut self, index: usize, direction: DVec3, owner: u32) {
-        self.places[index] = self.records.len() as u32;
-        self.records.push(Record { direction, owner, ..Record::default() });
-    }
-
-    /// Exchanges the records of two sites with the same direction.
-    pub(super) fn swap_sites(&mut self, first: usize, second: usize) {
-        self.places.swap(first, second);
-    }
-
-    /// Sets all solid angles and vector moments, of which `measure` gives those of a record.
-    pub(super) fn set_measures(&mut self, measure: impl Fn(usize) -> (f64, DVec3)) {
         self.solid_angles.clear();
-        self.solid_angles.extend(self.places.iter().map(|&place| measure(place as usize).0));
+        self.solid_angles.resize(len, 0.0);
         self.vector_moments.clear();
-        self.vector_moments.extend(self.places.iter().map(|&place| measure(place as usize).1));
-    }
-
-    /// Where the next outline starts.
-    pub(super) fn start_outline(&self) -> usize {
-        self.neighbors.len()
+        self.vector_moments.resize(len, DVec3::ZERO);
+        self.records.clear();
+        self.records.resize(len, Record::default());
+        self.neighbors.clear();
+        self.neighbors.reserve(6 * len);
+        self.vertex_indices.clear();
+        self.vertex_indices.reserve(6 * len);
     }
 
     /// Adds an edge and the corner at its start to the outline.
-    #[inline]
-    pub(super) fn push_edge(&mut self, neighbor: u32, corner: DVec3) {
+    #[inline(always)]
+    pub(super) fn push_edge(&mut self, neighbor: u32, vertex: u32) {
         self.neighbors.push(neighbor);
-        self.vertices.push(corner);
+        self.vertex_indices.push(vertex);
     }
 
-    /// Takes back all edges since `start`, each of which came with a corner.
+    /// Takes back all edges since `start`.
     pub(super) fn drop_outline(&mut self, start: usize) {
-        let count = self.neighbors.len() - start;
         self.neighbors.truncate(start);
-        self.vertices.truncate(self.vertices.len() - count);
-    }
-
-    /// Gives the cell of a record all edges since `start`.
-    pub(super) fn end_outline(&mut self, place: usize, start: usize) {
-        let count = self.neighbors.len() - start;
-        let record = &mut self.records[place];
-        (record.edges, record.edge_count) = (start as u32, count as u32);
-        (record.corners, record.corner_count) = ((self.vertices.len() - count) as u32, count as u32);
-    }
-
-    /// Gives the cell of a record its outline, after those of all cells before.
-    pub(super) fn push_outline(
-        &mut self,
-        place: usize,
-        neighbors: impl Iterator<Item = u32>,
-        vertices: impl Iterator<Item = DVec3>,
-    ) {
-        let (edges, corners) = (self.neighbors.len() as u32, self.vertices.len() as u32);
-        self.neighbors.extend(neighbors);
-        self.vertices.extend(vertices);
-        let record = &mut self.records[place];
-        (record.edges, record.edge_count) = (edges, self.neighbors.len() as u32 - edges);
-        (record.corners, record.corner_count) = (corners, self.vertices.len() as u32 - corners);
+        self.vertex_indices.truncate(start);
     }
 }
 
@@ -163,12 +166,12 @@ impl<'a> Cell<'a> {
 
     /// Lowest index of a site with the same direction: the one whose cell is not empty. Mostly `site()` itself.
     pub fn owner(&self) -> usize {
-        self.diagram.record(self.index).owner as usize
+        self.diagram.owners.get(self.index).map_or(self.index, |&owner| owner as usize)
     }
 
     /// Direction of the site, a unit vector.
     pub fn direction(&self) -> DVec3 {
-        self.diagram.record(self.index).direction
+        self.diagram.directions[self.diagram.records[self.index].place as usize]
     }
 
     /// Solid angle in steradians, in [0, 4π]; 0 if the cell is empty or another site owns it.
@@ -195,31 +198,23 @@ impl<'a> Cell<'a> {
     /// # Accuracy
     ///
     /// [`CORNER_ERROR`](super::CORNER_ERROR).
-    pub fn vertices(&self) -> &'a [DVec3] {
-        let outline = self.diagram.record(self.index);
-        &self.diagram.vertices[outline.corners as usize..][..outline.corner_count as usize]
+    pub fn vertices(&self) -> impl ExactSizeIterator<Item = DVec3> + DoubleEndedIterator + Clone + use<'a> {
+        let diagram = self.diagram;
+        self.vertex_indices().iter().map(|&vertex| diagram.vertices[vertex as usize])
+    }
+
+    /// Where the corners are in [`Diagram::vertices`].
+    pub fn vertex_indices(&self) -> &'a [u32] {
+        match &self.diagram.vertex_indices[self.diagram.outline(self.index)] {
+            [NO_VERTEX] => &[],
+            indices => indices,
+        }
     }
 
     /// The sites across the edges, in the same order, as owners of their cells; [`HORIZON`] across the horizon.
     ///
     /// A hemisphere has one edge though no corner.
     pub fn neighbors(&self) -> &'a [u32] {
-        let outline = self.diagram.record(self.index);
-        &self.diagram.neighbors[outline.edges as usize..][..outline.edge_count as usize]
-    }
-}
-
-#[cfg(test)]
-impl Diagram {
-    /// Capacities of the buffers, for the test that a warm builder keeps them.
-    pub(super) fn buffers(&self) -> [usize; 6] {
-        [
-            self.solid_angles.capacity(),
-            self.vector_moments.capacity(),
-            self.places.capacity(),
-            self.records.capacity(),
-            self.neighbors.capacity(),
-            self.vertices.capacity(),
-        ]
+        &self.diagram.neighbors[self.diagram.outline(self.index)]
     }
 }

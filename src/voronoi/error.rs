@@ -34,6 +34,11 @@ pub enum VoronoiError {
     },
     /// The pole is the zero vector, which has no direction.
     ZeroPole,
+    /// Exact decisions contradicted each other at a site: a fault of this crate, which no input should bring about.
+    Inconsistent {
+        /// Index of the site.
+        index: usize,
+    },
 }
 
 impl fmt::Display for VoronoiError {
@@ -45,6 +50,9 @@ impl fmt::Display for VoronoiError {
             Self::ZeroSite { index } => write!(f, "site {index} is the zero vector, which has no direction"),
             Self::PoleNotFinite { pole } => write!(f, "the pole is not finite: {pole}"),
             Self::ZeroPole => write!(f, "the pole is the zero vector, which has no direction"),
+            Self::Inconsistent { index } => {
+                write!(f, "no facet faces site {index}: a fault of the construction itself")
+            }
         }
     }
 }

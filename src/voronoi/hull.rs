@@ -18,23 +18,25 @@
 
 use glam::DVec3;
 
-use super::incircle::{in_circle, nearer};
+use super::corner::{SET, SPECIAL};
+use super::error::VoronoiError;
+use super::incircle::{Turn, in_circle, nearer};
+use super::order;
 use super::ray::Ray;
+use super::sites::Sites;
 
-/// A triangle of the hull.
+/// A triangle of the hull, whose plane is in an array of its own.
 #[derive(Clone, Copy, Debug)]
-#[repr(align(64))]
+#[repr(align(32))]
 pub(super) struct Facet {
-    /// On the plane of the facet, w·x = 1.
-    w: DVec3,
-    /// w·q is right to this much where q is near the plane.
-    error: f32,
-    /// While the hull is built, the last site in whose hole the facet was; later bits of the edges that have no length.
-    pub mark: u32,
     /// Its sites, counter-clockwise seen from outside.
     pub sites: [u32; 3],
     /// Across the edge opposite to each site: four times the facet there, plus the index of the edge in it.
     pub across: [u32; 3],
+    /// w·q is right to this much where q is near the plane.
+    pub error: f32,
+    /// While the hull is built, the last site in whose hole the facet was.
+    pub mark: u32,
 }
 
 /// An edge of the hole, from site `from` to site `to`, and the facet and edge across it.
@@ -59,88 +61,113 @@ pub(super) enum Shape {
 /// The hull, with its buffers.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Hull {
-    /// Unit vectors from the centre.
-    points: Vec<DVec3>,
     pub facets: Vec<Facet>,
-    /// The site that stands for each site's direction.
-    pub same: Vec<u32>,
+    /// Of each facet the vector w with w·x = 1 on its plane.
+    pub planes: Vec<DVec3>,
+    /// Sites that have the direction of another one, which stands for both.
+    pub twins: Vec<(u32, u32)>,
     /// Sites around the circle.
     pub ring: Vec<u32>,
+    /// Unit vectors from the centre, if that is not the origin.
+    moved: Vec<DVec3>,
+    /// The rays of sites on a circle.
+    rays: Vec<Ray>,
     stack: Vec<u32>,
     hole: Vec<u32>,
     rim: Vec<Rim>,
+}
+
+/// The sites as points about the centre.
+#[derive(Clone, Copy)]
+pub(super) struct Points<'a> {
+    pub sites: Sites<'a>,
+    points: &'a [DVec3],
     /// Largest component of a point.
     size: f64,
 }
 
-impl Facet {
-    const NEW: Self = Self { w: DVec3::ZERO, error: f32::INFINITY, mark: u32::MAX, sites: [0; 3], across: [0; 3] };
-
-    /// Whether `site` is beyond the plane.
+impl Points<'_> {
+    /// Whether `site`, at `point`, is beyond the plane `w` of a facet.
     #[inline(always)]
-    fn has_below(&self, rays: &[Ray], site: u32, point: DVec3) -> bool {
-        let excess = self.w.dot(point) - 1.0;
-        if excess.abs() > f64::from(self.error) {
+    fn is_beyond(&self, facet: &Facet, w: DVec3, site: u32, point: DVec3) -> bool {
+        let excess = w.dot(point) - 1.0;
+        if excess.abs() > f64::from(facet.error) {
             return excess > 0.0;
         }
-        let [a, b, c] = self.sites.map(|site| &rays[site as usize]);
-        in_circle(a, b, c, &rays[site as usize]) > 0
+        self.in_circle(facet, site) > 0
+    }
+
+    #[inline(never)]
+    fn in_circle(&self, facet: &Facet, site: u32) -> i32 {
+        let [a, b, c] = facet.sites.map(|site| self.sites.ray(site));
+        in_circle(&a, &b, &c, &self.sites.ray(site))
     }
 }
 
+impl Facet {
+    pub const NEW: Self = Self { sites: [0; 3], across: [0; 3], error: f32::INFINITY, mark: u32::MAX };
+}
+
 impl Hull {
-    /// Builds the hull of `rays`, which should be in an order that keeps close sites together.
-    pub fn build(&mut self, rays: &[Ray]) -> Shape {
+    /// Builds the hull of `sites`, which are in an order that keeps close ones together.
+    ///
+    /// # Errors
+    /// [`Inconsistent`](VoronoiError::Inconsistent), which exact decisions exclude.
+    pub fn build(&mut self, sites: Sites<'_>) -> Result<Shape, VoronoiError> {
         self.facets.clear();
+        self.planes.clear();
         self.ring.clear();
-        self.same.clear();
-        self.same.extend(0..rays.len() as u32);
-        let first = 0;
-        let Some(second) = far_from(rays, first) else {
-            self.same.fill(0);
-            return Shape::Point;
-        };
-        let third = far_from_line(rays, first, second);
-        let fourth = third.and_then(|third| far_from_plane(rays, first, second, third));
-        let (Some(third), Some((fourth, side))) = (third, fourth) else {
-            self.sort_around(rays, first, second, third);
-            return Shape::Circle;
-        };
-        // `side` > 0: the fourth is beyond (first, second, third).
-        let start = if side > 0 { [first, third, second, fourth] } else { [first, second, third, fourth] };
-        self.set_points(rays, start);
-        self.set_first_facets(start);
-        let mut last = 0;
-        for site in 0..rays.len() as u32 {
-            if !start.contains(&site) {
-                last = self.insert(rays, site, last);
+        self.twins.clear();
+        let start = match deep_start(sites) {
+            Some(start) => start,
+            None => {
+                let first = 0;
+                let Some(second) = far_from(sites, first) else {
+                    self.twins.extend((1..sites.len() as u32).map(|site| (site, first)));
+                    return Ok(Shape::Point);
+                };
+                let third = far_from_line(sites, first, second);
+                let fourth = third.and_then(|third| far_from_plane(sites, first, second, third));
+                let (Some(third), Some((fourth, side))) = (third, fourth) else {
+                    self.sort_around(sites, first, second, third);
+                    return Ok(Shape::Circle);
+                };
+                counter_clockwise([first, second, third, fourth], side)
             }
+        };
+        self.facets.reserve(2 * sites.len());
+        self.planes.reserve(2 * sites.len());
+        let mut moved = core::mem::take(&mut self.moved);
+        moved.clear();
+        if let Some(centre) = centre(start.map(|site| sites.unit(site))) {
+            moved.extend((0..sites.len() as u32).map(|site| sites.ray(site).minus(centre)));
         }
-        Shape::Solid
+        let points = if moved.is_empty() { sites.units() } else { &moved };
+        let size = points.iter().fold(0.0, |size: f64, point| size.max(point.abs().max_element()));
+        let result = self.add_all(&Points { sites, points, size }, start);
+        self.moved = moved;
+        result.map(|()| Shape::Solid)
     }
 
-    fn set_points(&mut self, rays: &[Ray], start: [u32; 4]) {
-        let corner = start.map(|site| rays[site as usize].unit);
-        let height = |a: DVec3, b: DVec3, c: DVec3| (b - a).cross(c - a).normalize_or_zero().dot(a);
-        let [a, b, c, d] = corner;
-        let inside = height(a, b, c).min(height(a, c, d)).min(height(a, d, b)).min(height(b, d, c));
-        let centre = if inside > DEEP { DVec3::ZERO } else { 0.25 * ((a + b) + (c + d)) };
-        self.points.clear();
-        if centre == DVec3::ZERO {
-            self.points.extend(rays.iter().map(|ray| ray.unit));
-        } else {
-            self.points.extend(rays.iter().map(|ray| ray.minus(centre)));
-        }
-        self.size = self.points.iter().fold(0.0, |size: f64, point| size.max(point.abs().max_element()));
+    fn add_all(&mut self, points: &Points<'_>, start: [u32; 4]) -> Result<(), VoronoiError> {
+        self.set_first_facets(points, start);
+        let mut last = Ok(0);
+        order::each_in_rounds(points.sites.len(), |site| {
+            if let (Ok(near), false) = (last, start.contains(&site)) {
+                last = self.insert(points, site, near);
+            }
+        });
+        last.map(|_| ())
     }
 
     /// The tetrahedron: the base a b c, counter-clockwise seen from outside, and the fourth site.
-    fn set_first_facets(&mut self, [a, b, c, d]: [u32; 4]) {
+    fn set_first_facets(&mut self, points: &Points<'_>, [a, b, c, d]: [u32; 4]) {
         for sites in [[a, b, c], [b, a, d], [a, c, d], [c, b, d]] {
-            let origin = self.points[sites[2] as usize];
-            let [d, e] = [0, 1].map(|k| edge(&self.points, sites[k], origin));
-            let (w, error) = plane(self.size, origin, d, e);
-            self.facets.push(Facet { w, error, mark: u32::MAX, sites, across: [0; 3] });
+            let origin = points.points[sites[2] as usize];
+            let [d, e] = [0, 1].map(|k| edge(points.points, sites[k], origin));
+            let (w, error) = plane(points.size, origin, d, e);
+            self.facets.push(Facet { sites, error, ..Facet::NEW });
+            self.planes.push(w);
         }
         for f in 0..4 {
             for e in 0..3 {
@@ -157,39 +184,33 @@ impl Hull {
         }
     }
 
-    /// Whether `site` is beyond the plane of `facet`.
-    #[inline]
-    fn is_beyond(&self, rays: &[Ray], facet: u32, site: u32, point: DVec3) -> bool {
-        self.facets[facet as usize].has_below(rays, site, point)
-    }
-
     /// Inserts `site`, starting to look for its place at a facet; returns one of its facets.
-    fn insert(&mut self, rays: &[Ray], site: u32, near: u32) -> u32 {
-        let point = self.points[site as usize];
-        match self.locate(rays, site, point, near) {
-            Ok(facet) => {
-                self.dig(rays, site, point, facet);
-                self.fill(site)
+    fn insert(&mut self, points: &Points<'_>, site: u32, near: u32) -> Result<u32, VoronoiError> {
+        let point = points.points[site as usize];
+        match self.locate(points, site, point, near) {
+            Place::Beyond(facet) => {
+                self.dig(points, site, point, facet);
+                Ok(self.fill(points, site))
             }
-            Err((facet, twin)) => {
-                self.same[site as usize] = twin;
-                facet
+            Place::Taken(facet, twin) => {
+                self.twins.push((site, twin));
+                Ok(facet)
             }
+            Place::None => Err(VoronoiError::Inconsistent { index: points.sites.index(site) }),
         }
     }
 
-    /// A facet that `site` is beyond; or a facet of the site with the same direction, and that site.
-    fn locate(&self, rays: &[Ray], site: u32, point: DVec3, near: u32) -> Result<u32, (u32, u32)> {
+    fn locate(&self, points: &Points<'_>, site: u32, point: DVec3, near: u32) -> Place {
         let mut facet = near;
-        let mut value = self.facets[facet as usize].w.dot(point);
+        let mut value = self.planes[facet as usize].dot(point);
         loop {
             let here = &self.facets[facet as usize];
             if value - 1.0 > f64::from(here.error) {
-                return Ok(facet);
+                return Place::Beyond(facet);
             }
             let mut next = facet;
             for across in here.across {
-                let there = self.facets[(across >> 2) as usize].w.dot(point);
+                let there = self.planes[(across >> 2) as usize].dot(point);
                 if there > value {
                     (next, value) = (across >> 2, there);
                 }
@@ -199,24 +220,27 @@ impl Hull {
             }
             facet = next;
         }
-        self.locate_by_nearest(rays, site, point, facet)
+        self.locate_by_nearest(points, site, point, facet)
     }
 
     /// The same by the nearest site, exactly: some facet of it is in the hole.
     #[cold]
-    fn locate_by_nearest(&self, rays: &[Ray], site: u32, point: DVec3, near: u32) -> Result<u32, (u32, u32)> {
-        let new = &rays[site as usize];
+    fn locate_by_nearest(&self, points: &Points<'_>, site: u32, point: DVec3, near: u32) -> Place {
+        let ray = |site: u32| points.sites.ray(site);
+        let is_beyond = |f: u32| points.is_beyond(&self.facets[f as usize], self.planes[f as usize], site, point);
+        let new = ray(site);
         let sites = self.facets[near as usize].sites;
-        if let Some(&twin) = sites.iter().find(|&&twin| rays[twin as usize].is_along(new)) {
-            return Err((near, twin));
+        if let Some(&twin) = sites.iter().find(|&&twin| ray(twin).is_along(&new)) {
+            return Place::Taken(near, twin);
         }
-        if self.is_beyond(rays, near, site, point) {
-            return Ok(near);
+        if is_beyond(near) {
+            return Place::Beyond(near);
         }
-        let (mut best, mut corner) = (sites[0], 4 * near);
-        for k in 1..3 {
-            if nearer(new, &rays[sites[k] as usize], &rays[best as usize]) {
-                (best, corner) = (sites[k], 4 * near + k as u32);
+        let (mut best, mut best_ray, mut corner) = (sites[0], ray(sites[0]), 4 * near);
+        for (k, &other) in (0..).zip(&sites).skip(1) {
+            let other_ray = ray(other);
+            if nearer(&new, &other_ray, &best_ray) {
+                (best, best_ray, corner) = (other, other_ray, 4 * near + k);
             }
         }
         loop {
@@ -224,8 +248,9 @@ impl Hull {
             let mut at = start;
             loop {
                 let other = self.facets[(at >> 2) as usize].sites[next(at & 3)];
-                if nearer(new, &rays[other as usize], &rays[best as usize]) {
-                    (best, corner) = (other, at - (at & 3) + next(at & 3) as u32);
+                let other_ray = ray(other);
+                if nearer(&new, &other_ray, &best_ray) {
+                    (best, best_ray, corner) = (other, other_ray, at - (at & 3) + next(at & 3) as u32);
                 }
                 at = self.turn(at);
                 if at == start {
@@ -236,18 +261,17 @@ impl Hull {
                 break;
             }
         }
-        if rays[best as usize].is_along(new) {
-            return Err((corner >> 2, best));
+        if best_ray.is_along(&new) {
+            return Place::Taken(corner >> 2, best);
         }
         let mut at = corner;
         loop {
-            if self.is_beyond(rays, at >> 2, site, point) {
-                return Ok(at >> 2);
+            if is_beyond(at >> 2) {
+                return Place::Beyond(at >> 2);
             }
             at = self.turn(at);
-            debug_assert!(at != corner, "a facet of the nearest site is in the hole");
             if at == corner {
-                return Err((at >> 2, best));
+                return Place::None;
             }
         }
     }
@@ -261,8 +285,8 @@ impl Hull {
     }
 
     /// Finds the hole that `site` makes, from one facet of it, and its rim counter-clockwise.
-    fn dig(&mut self, rays: &[Ray], site: u32, point: DVec3, facet: u32) {
-        let Self { facets, stack, hole, rim, .. } = self;
+    fn dig(&mut self, points: &Points<'_>, site: u32, point: DVec3, facet: u32) {
+        let Self { facets, planes, stack, hole, rim, .. } = self;
         hole.clear();
         rim.clear();
         stack.clear();
@@ -276,7 +300,7 @@ impl Hull {
                 continue;
             }
             let (after, before) = (next(across & 3), next(next(across & 3) as u32));
-            if there.has_below(rays, site, point) {
+            if points.is_beyond(there, planes[(across >> 2) as usize], site, point) {
                 there.mark = site;
                 hole.push(across >> 2);
                 stack.push(there.across[before]);
@@ -288,13 +312,15 @@ impl Hull {
     }
 
     /// Joins `site` to the rim of the hole; returns one of the new facets.
-    fn fill(&mut self, site: u32) -> u32 {
+    fn fill(&mut self, points: &Points<'_>, site: u32) -> u32 {
         while self.hole.len() < self.rim.len() {
             self.hole.push(self.facets.len() as u32);
             self.facets.push(Facet::NEW);
+            self.planes.push(DVec3::ZERO);
         }
-        let Self { points, facets, hole, rim, size, .. } = self;
-        let (points, facets, rim, hole) = (&points[..], &mut facets[..], &rim[..], &hole[..rim.len()]);
+        let Self { facets, planes, hole, rim, .. } = self;
+        let (facets, planes, rim, hole) = (&mut facets[..], &mut planes[..], &rim[..], &hole[..rim.len()]);
+        let &Points { points, size, .. } = points;
         let point = points[site as usize];
         let mut before = hole[hole.len() - 1];
         let mut d = edge(points, rim[0].from, point);
@@ -302,9 +328,10 @@ impl Hull {
             let here = hole[k];
             let after = hole[if k + 1 == hole.len() { 0 } else { k + 1 }];
             let e = edge(points, to, point);
-            let (w, error) = plane(*size, point, d, e);
+            let (w, error) = plane(size, point, d, e);
             let across_all = [4 * after + 1, 4 * before, across];
-            facets[here as usize] = Facet { w, error, mark: u32::MAX, sites: [from, to, site], across: across_all };
+            facets[here as usize] = Facet { sites: [from, to, site], across: across_all, error, mark: u32::MAX };
+            planes[here as usize] = w;
             facets[(across >> 2) as usize].across[(across & 3) as usize] = 4 * here + 2;
             before = here;
             d = e;
@@ -312,51 +339,96 @@ impl Hull {
         hole[0]
     }
 
-    /// Whether the corners on both sides of an edge are the same point.
-    pub fn is_flat(&self, rays: &[Ray], edge: u32) -> bool {
+    /// Whether the corners on both sides of an edge are the same point, exactly.
+    #[cold]
+    pub fn is_flat(&self, sites: Sites<'_>, edge: u32) -> bool {
         let facet = &self.facets[(edge >> 2) as usize];
         let across = facet.across[(edge & 3) as usize];
         let other = self.facets[(across >> 2) as usize].sites[(across & 3) as usize];
-        let excess = facet.w.dot(self.points[other as usize]) - 1.0;
-        if excess.abs() > f64::from(facet.error) {
-            return false;
+        if facet.mark & (SPECIAL | SET) == SPECIAL {
+            // Its plane is there yet.
+            let points = if self.moved.is_empty() { sites.units() } else { &self.moved };
+            let excess = self.planes[(edge >> 2) as usize].dot(points[other as usize]) - 1.0;
+            if excess.abs() > f64::from(facet.error) {
+                return false;
+            }
         }
-        let [a, b, c] = facet.sites.map(|site| &rays[site as usize]);
-        in_circle(a, b, c, &rays[other as usize]) == 0
+        let [a, b, c] = facet.sites.map(|site| sites.ray(site));
+        in_circle(&a, &b, &c, &sites.ray(other)) == 0
     }
 
     /// Sorts the sites of one circle around it.
-    fn sort_around(&mut self, rays: &[Ray], first: u32, second: u32, third: Option<u32>) {
-        let origin = &rays[first as usize];
+    fn sort_around(&mut self, sites: Sites<'_>, first: u32, second: u32, third: Option<u32>) {
+        let origin = sites.ray(first);
         let Some(third) = third else {
-            for site in 0..rays.len() as u32 {
-                self.same[site as usize] = if rays[site as usize].is_along(origin) { first } else { second };
+            for site in (1..sites.len() as u32).filter(|&site| site != second) {
+                self.twins.push((site, if sites.ray(site).is_along(&origin) { first } else { second }));
             }
             self.ring.extend([first, second]);
             return;
         };
-        let turn = super::incircle::Turn::new(origin, &rays[second as usize], &rays[third as usize]);
-        for site in 1..rays.len() as u32 {
-            if rays[site as usize].is_along(origin) {
-                self.same[site as usize] = first;
+        let Self { rays, ring, twins, .. } = self;
+        rays.clear();
+        rays.extend((0..sites.len() as u32).map(|site| sites.ray(site)));
+        let ray = |site: u32| &rays[site as usize];
+        let turn = Turn::new(&origin, ray(second), ray(third));
+        for site in 1..sites.len() as u32 {
+            if ray(site).is_along(&origin) {
+                twins.push((site, first));
             } else {
-                self.ring.push(site);
+                ring.push(site);
             }
         }
-        self.ring.sort_unstable_by(|&p, &q| turn.compare(&rays[p as usize], &rays[q as usize]));
-        let mut kept = 0;
-        for k in 0..self.ring.len() {
-            let site = self.ring[k];
-            if kept > 0 && rays[site as usize].is_along(&rays[self.ring[kept - 1] as usize]) {
-                self.same[site as usize] = self.ring[kept - 1];
-            } else {
-                self.ring[kept] = site;
-                kept += 1;
+        ring.sort_unstable_by(|&p, &q| turn.compare(ray(p), ray(q)));
+        ring.dedup_by(|site, kept| {
+            let is_twin = ray(*site).is_along(ray(*kept));
+            if is_twin {
+                twins.push((*site, *kept));
             }
-        }
-        self.ring.truncate(kept);
-        self.ring.push(first);
+            is_twin
+        });
+        ring.push(first);
     }
+}
+
+/// What a site finds of the hull.
+enum Place {
+    /// A facet that it is beyond.
+    Beyond(u32),
+    /// A facet of the site with the same direction, and that site.
+    Taken(u32, u32),
+    None,
+}
+
+/// Four sites, of a sample, with the origin deep within, and counter-clockwise as they should.
+fn deep_start(sites: Sites<'_>) -> Option<[u32; 4]> {
+    let mut start = [0; 4];
+    for k in 1..4 {
+        // Cosines of a regular tetrahedron.
+        let measure = |site: u32| {
+            let off = start[..k].iter().map(|&other| sites.unit(other).dot(sites.unit(site)) + 1.0 / 3.0);
+            -off.map(|off| off * off).sum::<f64>()
+        };
+        start[k] = sample(sites, measure);
+    }
+    if centre(start.map(|site| sites.unit(site))).is_some() {
+        return None;
+    }
+    let [a, b, c, d] = start.map(|site| sites.ray(site));
+    Some(counter_clockwise(start, in_circle(&a, &b, &c, &d)))
+}
+
+/// The same four sites, so that the fourth is not beyond the plane of the others; it is on the given side of that.
+fn counter_clockwise([a, b, c, d]: [u32; 4], side: i32) -> [u32; 4] {
+    if side > 0 { [a, c, b, d] } else { [a, b, c, d] }
+}
+
+/// The middle of four sites, unless the origin is deep within.
+fn centre([a, b, c, d]: [DVec3; 4]) -> Option<DVec3> {
+    let height = |a: DVec3, b: DVec3, c: DVec3| (b - a).cross(c - a).normalize_or_zero().dot(a);
+    let heights = [height(a, b, c), height(a, c, d), height(a, d, b), height(b, d, c)];
+    let deep = heights.iter().all(|&height| height > DEEP) || heights.iter().all(|&height| height < -DEEP);
+    (!deep).then(|| 0.25 * ((a + b) + (c + d)))
 }
 
 /// The plane w·x = 1 through `c` and the points at `d` and `e` from it, counter-clockwise seen from outside, and the
@@ -392,38 +464,44 @@ fn next(k: u32) -> usize {
     if k == 2 { 0 } else { k as usize + 1 }
 }
 
-/// The one with the largest `measure` of some sites, if `is_right`; else the first one that is.
-fn choose(rays: &[Ray], measure: impl Fn(&Ray) -> f64, is_right: impl Fn(&Ray) -> bool) -> Option<u32> {
-    let (mut best, mut largest) = (0, -1.0);
-    for (k, ray) in rays.iter().enumerate().step_by(rays.len().div_ceil(SAMPLE)) {
-        let value = measure(ray);
-        if value > largest {
-            (best, largest) = (k, value);
+/// The one of some sites with the largest `measure`.
+fn sample(sites: Sites<'_>, measure: impl Fn(u32) -> f64) -> u32 {
+    let mut best = (0, f64::NEG_INFINITY);
+    for site in (0..sites.len() as u32).step_by(sites.len().div_ceil(SAMPLE)) {
+        let value = measure(site);
+        if value > best.1 {
+            best = (site, value);
         }
     }
-    if is_right(&rays[best]) {
-        return Some(best as u32);
-    }
-    rays.iter().position(is_right).map(|k| k as u32)
+    best.0
 }
 
-fn far_from(rays: &[Ray], first: u32) -> Option<u32> {
-    let a = &rays[first as usize];
-    choose(rays, |ray| ray.offset(a).length_squared(), |ray| !ray.is_along(a))
+/// The one of some sites with the largest `measure`, if it `is_right`; else the first site that is.
+fn choose(sites: Sites<'_>, measure: impl Fn(u32) -> f64, is_right: impl Fn(&Ray) -> bool) -> Option<u32> {
+    let is_right = |site: u32| is_right(&sites.ray(site));
+    let best = sample(sites, measure);
+    if is_right(best) { Some(best) } else { (0..sites.len() as u32).find(|&site| is_right(site)) }
 }
 
-fn far_from_line(rays: &[Ray], first: u32, second: u32) -> Option<u32> {
-    let (a, b) = (&rays[first as usize], &rays[second as usize]);
-    let line = b.offset(a);
-    choose(rays, |ray| ray.offset(a).cross(line).length_squared(), |ray| !ray.is_along(a) && !ray.is_along(b))
+fn far_from(sites: Sites<'_>, first: u32) -> Option<u32> {
+    let a = sites.ray(first);
+    choose(sites, |site| sites.offset(site, first).length_squared(), |ray| !ray.is_along(&a))
+}
+
+fn far_from_line(sites: Sites<'_>, first: u32, second: u32) -> Option<u32> {
+    let (a, b) = (sites.ray(first), sites.ray(second));
+    let line = sites.offset(second, first);
+    let measure = |site| sites.offset(site, first).cross(line).length_squared();
+    choose(sites, measure, |ray| !ray.is_along(&a) && !ray.is_along(&b))
 }
 
 /// A site that is not on the circle of three others, and whether it is beyond their plane (1) or before it (−1).
-fn far_from_plane(rays: &[Ray], first: u32, second: u32, third: u32) -> Option<(u32, i32)> {
-    let [a, b, c] = [first, second, third].map(|site| &rays[site as usize]);
-    let normal = b.offset(a).cross(c.offset(a));
-    let site = choose(rays, |ray| ray.offset(a).dot(normal).abs(), |ray| in_circle(a, b, c, ray) != 0)?;
-    Some((site, in_circle(a, b, c, &rays[site as usize])))
+fn far_from_plane(sites: Sites<'_>, first: u32, second: u32, third: u32) -> Option<(u32, i32)> {
+    let [a, b, c] = [first, second, third].map(|site| sites.ray(site));
+    let normal = sites.offset(second, first).cross(sites.offset(third, first));
+    let measure = |site| sites.offset(site, first).dot(normal).abs();
+    let site = choose(sites, measure, |ray| in_circle(&a, &b, &c, ray) != 0)?;
+    Some((site, in_circle(&a, &b, &c, &sites.ray(site))))
 }
 
 /// Number of sites, or up to twice as many, of which the first four are taken.

@@ -79,8 +79,12 @@ mod locator;
 mod measure;
 mod order;
 mod ordinary;
+mod outlines;
+mod pending;
 mod predicate;
 mod ray;
+mod shared;
+mod sites;
 mod twofold;
 mod validate;
 

@@ -2,8 +2,8 @@
 //!
 //! # Model
 //! The sphere is seen as a cube with a Hilbert curve on each face, so that sites next to each other in the order are close.
-//! An eighth of the sites, chosen by a hash of their index, goes before the others, and an eighth of these before them, and
-//! so on: this makes long chains of facets unlikely, whatever the sites.
+//! Of every eight sites along the curve one, chosen by a hash, goes before the others, and of every eight of these one
+//! before them, and so on: this makes long chains of facets unlikely, whatever the sites.
 //!
 //! # Source
 //! Hilbert (1891); Amenta, Choi and Rote (2003), Incremental constructions con BRIO.
@@ -11,7 +11,7 @@
 use glam::DVec3;
 
 /// Bits of a coordinate on a face.
-const DEPTH: u32 = 15;
+const DEPTH: u32 = 18;
 
 /// The same for few sites.
 const COARSE: u32 = 6;
@@ -19,46 +19,59 @@ const COARSE: u32 = 6;
 /// Fewer sites than this are taken in one round.
 const ONE_ROUND: usize = 500;
 
-/// Sets `keys` to the sites' order: the index is in the lower 28 bits.
+/// Bits of a key for the index of a site; the rest are for its place on the curve.
+const INDEX_BITS: u32 = 28;
+
+/// Sets `keys` to the sites' order along the curve: the index is in the lower bits.
 pub(super) fn sort(sites: &[DVec3], keys: &mut Vec<u64>) {
     keys.clear();
-    let sites_by_index = sites.iter().enumerate();
+    keys.reserve(sites.len());
+    let by_index = (0..).zip(sites);
     if sites.len() < ONE_ROUND {
-        keys.extend(sites_by_index.map(|(index, &site)| curve::<COARSE>(site) << 28 | index as u64));
+        keys.extend(by_index.map(|(index, &site)| curve::<COARSE>(site) << INDEX_BITS | index));
     } else {
-        keys.extend(sites_by_index.map(|(index, &site)| {
-            let early = (hash(index as u32).trailing_zeros() / 3).min(7);
-            u64::from(7 - early) << 61 | curve::<DEPTH>(site) << 28 | index as u64
-        }));
+        keys.extend(by_index.map(|(index, &site)| (curve::<DEPTH>(site) >> CUT) << INDEX_BITS | index));
     }
     keys.sort_unstable();
 }
 
-/// Sets `places` to the places of sorted `keys` along the curve, all rounds together.
-pub(super) fn merge_rounds(keys: &[u64], places: &mut Vec<u32>) {
-    let round = |key: u64| (key >> 61) as usize;
-    let along = |key: u64| key & ((1 << 61) - 1);
-    let ends: [usize; 8] = core::array::from_fn(|r| keys.partition_point(|&key| round(key) <= r));
-    let mut at: [usize; 8] = core::array::from_fn(|r| if r == 0 { 0 } else { ends[r - 1] });
-    let head = |r: usize, at: usize| if at < ends[r] { along(keys[at]) } else { u64::MAX };
-    let mut heads: [u64; 8] = core::array::from_fn(|r| head(r, at[r]));
-    places.clear();
-    if ends[0] == keys.len() {
-        places.extend(0..keys.len() as u32);
-        return;
-    }
-    for _ in keys {
-        let r = (1..8).fold(0, |best, r| if heads[r] < heads[best] { r } else { best });
-        places.push(at[r] as u32);
-        at[r] += 1;
-        heads[r] = head(r, at[r]);
+/// Lowest bits of the curve for which a key has no room.
+const CUT: u32 = 3 + 2 * DEPTH + INDEX_BITS - 64;
+
+/// The index of a key.
+#[inline(always)]
+pub(super) fn index(key: u64) -> usize {
+    (key & ((1 << INDEX_BITS) - 1)) as usize
+}
+
+/// Calls `visit` with the places 0 to `len` − 1, each once: one of every eight waits for none, and so on.
+///
+/// Of every eight places of a level along the curve, a hash chooses one that goes to the next level; the last levels come
+/// first.
+pub(super) fn each_in_rounds(len: usize, mut visit: impl FnMut(u32)) {
+    let top = if len < ONE_ROUND { 0 } else { (len / FIRST_ROUND).ilog2() / 3 };
+    for level in (0..=top).rev() {
+        let count = len.div_ceil(8usize.pow(level));
+        for eight in 0..count.div_ceil(8) {
+            let chosen = if level < top { choice(level, eight, count) } else { usize::MAX };
+            for at in (8 * eight..count).take(8) {
+                if at != chosen {
+                    visit((0..level).rev().fold(at, |at, below| choice(below, at, len.div_ceil(8usize.pow(below))))
+                        as u32);
+                }
+            }
+        }
     }
 }
 
-/// The index of a key.
-pub(super) fn index(key: u64) -> usize {
-    (key & ((1 << 28) - 1)) as usize
+/// Which of the eight places, of the `count` on a level, goes to the next one.
+fn choice(level: u32, eight: usize, count: usize) -> usize {
+    let several = (count - 8 * eight).min(8);
+    8 * eight + ((u64::from(hash(eight as u32 ^ level << 28)) * several as u64) >> 32) as usize
 }
+
+/// Places of the first round, or up to eight times as many.
+const FIRST_ROUND: usize = 64;
 
 fn hash(index: u32) -> u32 {
     let x = index.wrapping_add(1).wrapping_mul(0x9e37_79b9);
@@ -78,17 +91,17 @@ fn curve<const BITS: u32>(site: DVec3) -> u64 {
     };
     let face = 2 * face + u64::from(largest < 0.0);
     let cell = |x: f64| ((0.5 + 0.5 * (x / largest.abs())) * f64::from((1u32 << BITS) - 1)) as u32;
-    face << (2 * BITS) | u64::from(hilbert::<BITS>(cell(s), cell(t)))
+    face << (2 * BITS) | hilbert::<BITS>(cell(s), cell(t))
 }
 
 /// The place of the cell (x, y) on the Hilbert curve of 4^`BITS` cells.
 #[inline]
-fn hilbert<const BITS: u32>(x: u32, y: u32) -> u32 {
+fn hilbert<const BITS: u32>(x: u32, y: u32) -> u64 {
     let (mut place, mut turn) = (0, 0);
     for step in (0..BITS / LEVELS).rev() {
         let digits = (x >> (LEVELS * step) & 7) << 3 | (y >> (LEVELS * step) & 7);
         let entry = u32::from(CURVE[(turn << 6 | digits) as usize]);
-        place = place << 6 | entry >> 2;
+        place = place << 6 | u64::from(entry >> 2);
         turn = entry & 3;
     }
     place
@@ -125,14 +138,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rounds_are_merged_along_the_curve() {
-        let sites: Vec<DVec3> = (0..2000).map(|k| DVec3::new(f64::from(k * k % 97), f64::from(k % 89), 50.0)).collect();
-        let (mut keys, mut places) = (Vec::new(), Vec::new());
-        sort(&sites, &mut keys);
-        merge_rounds(&keys, &mut places);
-        let along = |place: u32| keys[place as usize] & ((1 << 61) - 1);
-        assert!(places.len() == keys.len() && places.windows(2).all(|pair| along(pair[0]) < along(pair[1])));
-        assert!(keys.iter().any(|key| key >> 61 < 5), "there must be rounds to merge");
+    fn rounds_have_every_place_once_and_grow_eightfold() {
+        for len in [1, 7, 499, 500, 511, 4097, 100_000] {
+            let mut places = Vec::new();
+            each_in_rounds(len, |place| places.push(place));
+            let mut sorted = places.clone();
+            sorted.sort_unstable();
+            assert!(sorted.iter().copied().eq(0..len as u32), "{len} places");
+            let rounds = 1 + places.windows(2).filter(|pair| pair[0] > pair[1]).count();
+            let want = if len < ONE_ROUND { 1 } else { 1 + (len / FIRST_ROUND).ilog2() / 3 };
+            assert_eq!(rounds, want as usize, "{len} places");
+        }
     }
 
     #[test]

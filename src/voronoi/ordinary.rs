@@ -50,16 +50,6 @@ impl Side {
 }
 
 impl Sum {
-    /// A finished sum, which `measure` gives back.
-    pub fn finished(solid_angle: f64, vector_moment: DVec3) -> Self {
-        Self { re: solid_angle, im: 0.0, moment: vector_moment }
-    }
-
-    /// What a finished sum was made of.
-    pub fn measure(&self) -> (f64, DVec3) {
-        (self.re, self.moment)
-    }
-
     /// Adds an edge with the site on its left.
     #[inline(always)]
     pub fn add(&mut self, side: &Side) {
@@ -101,10 +91,16 @@ const SMALL: f64 = 1.0 / 32.0;
 /// θ / sin θ − 1 of the arc with sin²(θ/2) = `s`, for `s` < 3/4 (θ < 2π/3).
 ///
 /// The power series of asin(√s) / √(s(1 − s)), coefficients 2/3, 2/3·4/5, 2/3·4/5·6/7, …: up to 1/16 14 of them leave less
-/// than 2⁻⁵⁶ of the first, up to 1/128 7 do. Beyond, the arc itself.
+/// than 2⁻⁵⁶ of the first, up to 1/128 8 do, and 4 up to 2⁻¹⁴. Beyond, the arc itself.
 #[inline(always)]
 pub(super) fn arc_over_sine_less_one(s: f64) -> f64 {
-    if s <= 0.007_812_5 { power_series(s, &COEFFICIENTS[..8]) } else { of_long_arc(s) }
+    if s <= 1.0 / 16384.0 {
+        power_series(s, &COEFFICIENTS[..4])
+    } else if s <= 0.007_812_5 {
+        power_series(s, &COEFFICIENTS[..8])
+    } else {
+        of_long_arc(s)
+    }
 }
 
 #[inline(never)]

@@ -152,7 +152,7 @@ impl Diagram {
             (corners, edges) if corners == edges && corners >= 2 => {}
             _ => return Err(Defect::Outline { site }),
         }
-        for (corner, &vertex) in vertices.iter().enumerate() {
+        for (corner, vertex) in vertices.enumerate() {
             let before = if corner == 0 { neighbors.len() - 1 } else { corner - 1 };
             let edges = neighbors.len();
             // Of many edges, the 64 after the corner before.

@@ -28,6 +28,8 @@ pub fn check(sites: &[DVec3], pole: Option<DVec3>) {
     let characteristic = euler(&first);
     assert_eq!(characteristic, if pole.is_some() { 1 } else { 2 }, "V − E + F for {sites:?} and the pole {pole:?}");
 
+    check_sharing(&first, sites, pole);
+
     // A builder that was used before gives the same bits, and so do sites of other lengths along the same rays.
     let mut builder = Builder::new();
     assert!(builder.hemisphere(&[DVec3::X, DVec3::NEG_Z, DVec3::X], DVec3::Y).is_ok());
@@ -40,6 +42,25 @@ pub fn check(sites: &[DVec3], pole: Option<DVec3>) {
         Ok(again) => assert_same_bits(&first, again),
         Err(error) => panic!("{error} for {scaled:?}"),
     }
+}
+
+/// Both cells of an edge name the same two vertices, and every vertex belongs to a cell.
+fn check_sharing(diagram: &Diagram, sites: &[DVec3], pole: Option<DVec3>) {
+    let mut is_used = vec![false; diagram.vertices().len()];
+    for cell in diagram.cells() {
+        let own = cell.vertex_indices();
+        own.iter().for_each(|&vertex| is_used[vertex as usize] = true);
+        for (k, &neighbor) in cell.neighbors().iter().enumerate().filter(|edge| *edge.1 != HORIZON && !own.is_empty()) {
+            let other = diagram.cell(neighbor as usize);
+            let back = other.neighbors().iter().position(|&id| id as usize == cell.site());
+            let vertices = other.vertex_indices();
+            let ends = back.map(|k| [vertices[(k + 1) % vertices.len()], vertices[k]]);
+            let want = [own[k], own[(k + 1) % own.len()]];
+            let site = cell.site();
+            assert_eq!(ends, Some(want), "edge of {site} and {neighbor} for {sites:?} and the pole {pole:?}");
+        }
+    }
+    assert!(is_used.iter().all(|&used| used), "a vertex of no cell for {sites:?} and the pole {pole:?}");
 }
 
 /// V − E + F of the cells that are not empty: 2 for a sphere and 1 for a disk, if each cell is in one piece.
@@ -104,6 +125,6 @@ pub fn assert_same_bits(a: &Diagram, b: &Diagram) {
         assert_eq!(a.solid_angle().to_bits(), b.solid_angle().to_bits(), "{} {}", a.solid_angle(), b.solid_angle());
         assert_eq!(bits(a.vector_moment()), bits(b.vector_moment()));
         assert_eq!(a.neighbors(), b.neighbors());
-        assert!(a.vertices().iter().map(|&v| bits(v)).eq(b.vertices().iter().map(|&v| bits(v))));
+        assert!(a.vertices().map(bits).eq(b.vertices().map(bits)));
     }
 }

@@ -84,7 +84,7 @@ pub fn slow(sites: &[DVec3], pole: Option<DVec3>) {
             "cell {i}: got {solid_angle} and {moment}, want {want:?}, {error:e} and {moment_error:e} off, allowed {allowed:e}, \
              for {sites:?} and the pole {pole:?}"
         );
-        let perimeter = perimeter(got.cell(i).vertices());
+        let perimeter = perimeter(&got.cell(i).vertices().collect::<Vec<_>>());
         if want.solid_angle == 0.0 || want.error > bound("slow", "judged") * perimeter {
             continue;
         }
