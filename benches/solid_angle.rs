@@ -1,15 +1,21 @@
 //! Time of the solid angle and the vector moment, beside the published formulas on the same triangles and polygons.
 //!
 //! Every iteration measures 256 different loops (so that no branch is learnt by heart); divide by 256, or read the rate.
+//! First come the ratios, taken in turns in one run: to the fan of Van Oosterom–Strackee with the platform's arctangent and no
+//! checks, and to s2geometry where `SOLID_ANGLE_S2` names the program that `benches/peers/solid_angle_s2.sh DIR` builds.
 
 #[path = "../tests/bounds/solid_angle.rs"]
 #[allow(dead_code, reason = "uses a part of the table")]
 mod bounds;
+#[path = "../examples/solid_angle_report/peer.rs"]
+mod peer;
 #[path = "../tests/seeds/mod.rs"]
 mod seeds;
 
 use std::f64::consts::TAU;
 use std::hint::black_box;
+use std::path::Path;
+use std::time::Instant;
 
 use bounds::bound;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
@@ -108,5 +114,58 @@ fn polygons(criterion: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, triangles, polygons);
+/// Van Oosterom–Strackee for unit vectors as programs have it: the platform's arctangent, nothing checked.
+fn naive(v: &[DVec3]) -> f64 {
+    let triangle = |a: DVec3, b: DVec3, c: DVec3| 2.0 * a.dot(b.cross(c)).atan2(1.0 + a.dot(b) + b.dot(c) + c.dot(a));
+    (2..v.len()).map(|i| triangle(v[0], v[i - 1], v[i])).sum()
+}
+
+const ROUNDS: u32 = 201;
+
+/// Prints what triangles, hexagons and 1000-gons cost, as ratios.
+fn ratios(_: &mut Criterion) {
+    type Measure = fn(&[DVec3]) -> f64;
+    let ours: Measure = |v| match *v {
+        [a, b, c] => solid_angle::triangle(a, b, c).unwrap_or(f64::NAN),
+        _ => solid_angle::signed_polygon(v).unwrap_or(f64::NAN),
+    };
+    let fast: Measure = |v| match *v {
+        [a, b, c] => fast::triangle(a, b, c),
+        _ => fast::signed_polygon(v),
+    };
+    let measures = [("van_oosterom_strackee_fan", naive as Measure), ("polygon", ours), ("fast_polygon", fast)];
+    println!("ns per loop: naive, ours (ratio to naive), fast (ratio to naive), s2geometry (ratio of ours to it)");
+    for (n, radius) in [(3, 0.5), (3, 1e-3), (6, 0.5), (6, 1e-3), (1000, 0.5), (1000, 1e-3)] {
+        let mut rings = rings(n, radius);
+        rings.truncate(if n < 1000 { 256 } else { 8 });
+        let mut best = [f64::INFINITY; 3];
+        for (name, measure) in measures {
+            for ring in &rings {
+                let (got, want) = (measure(ring), solid_angle::polygon(ring).expect("a ring"));
+                assert!((got - want).abs() <= bound(name, "bench"), "{name} {n}: {got} against {want}");
+            }
+        }
+        for _ in 0..ROUNDS {
+            for (best, (_, measure)) in best.iter_mut().zip(measures) {
+                let start = Instant::now();
+                black_box(rings.iter().map(|ring| measure(black_box(ring))).sum::<f64>());
+                *best = best.min(start.elapsed().as_secs_f64() * 1e9 / rings.len() as f64);
+            }
+        }
+        let [naive, ours, fast] = best;
+        print!("{n:5} vertices, radius {radius:5}: {naive:7.1}, {ours:7.1} ({:.2})", ours / naive);
+        print!(", {fast:7.1} ({:.2})", fast / naive);
+        if let Some(program) = std::env::var_os("SOLID_ANGLE_S2") {
+            let (theirs, areas) = peer::areas(Path::new(&program), &rings, ROUNDS).expect("the peer program");
+            for (ring, got) in rings.iter().zip(areas) {
+                let want = solid_angle::polygon(ring).expect("a ring");
+                assert!((got - want).abs() <= bound("s2geometry", "bench"), "s2geometry {n}: {got}");
+            }
+            print!(", {theirs:7.1} ({:.2})", ours / theirs);
+        }
+        println!();
+    }
+}
+
+criterion_group!(benches, ratios, triangles, polygons);
 criterion_main!(benches);

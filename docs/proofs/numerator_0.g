@@ -93,24 +93,24 @@ t72 = -(t71 - t71x);
 t73x = az * t57; t73 = rnd(t73x);
 e73 = az * e57;
 t74 = -(t73 - t73x);
-t75x = t69 + t71; t75 = rnd(t75x);
-e75 = e69 + e71;
-t76 = -(t75 - t75x);
-t77x = t75 + t73; t77 = rnd(t77x);
-e77 = e75 + e73;
-t78 = -(t77 - t77x);
-t79x = t70 + t72; t79 = rnd(t79x);
-t80x = t79 + t74; t80 = rnd(t80x);
-t81x = t76 + t78; t81 = rnd(t81x);
-t82x = t80 + t81; t82 = rnd(t82x);
-t83x = ax * t36; t83 = rnd(t83x);
-t84x = ay * t52; t84 = rnd(t84x);
+t75x = ax * t36; t75 = rnd(t75x);
+t76x = ay * t52; t76 = rnd(t76x);
+t77x = az * t68; t77 = rnd(t77x);
+t78x = t69 + t71; t78 = rnd(t78x);
+e78 = e69 + e71;
+t79 = -(t78 - t78x);
+t80x = t78 + t73; t80 = rnd(t80x);
+e80 = e78 + e73;
+t81 = -(t80 - t80x);
+t82x = t70 + t72; t82 = rnd(t82x);
+t83x = t82 + t74; t83 = rnd(t83x);
+t84x = t79 + t81; t84 = rnd(t84x);
 t85x = t83 + t84; t85 = rnd(t85x);
-t86x = az * t68; t86 = rnd(t86x);
-t87x = t85 + t86; t87 = rnd(t87x);
-t88x = t82 + t87; t88 = rnd(t88x);
-t89x = t77 + t88; t89 = rnd(t89x);
-e89 = e77;
+t86x = t75 + t76; t86 = rnd(t86x);
+t87x = t86 + t77; t87 = rnd(t87x);
+t88x = t85 + t87; t88 = rnd(t88x);
+t89x = t80 + t88; t89 = rnd(t89x);
+e89 = e80;
 t90 = -(t89 - t89x);
 R = t89 + t90;
 { |ax| <= 1
@@ -129,4 +129,4 @@ R = t89 + t90;
   /\ |t17x| <= 1b-0
   /\ |t19x| <= 1b-0
   -> |R - e89| <= 1297036692682702800b-160 }
-R - e89 -> (ay*t14 + -az*t12)*(t15 - t15x) + (-ax*t14 + az*t10)*(t17 - t17x) + (ax*t12 + -ay*t10)*(t19 - t19x) + (ax)*(t27 - t27x) + (ax)*(t28 - t28x) + (-ax)*(t29 - t29x) + (-ax)*(t30 - t30x) + (-ax)*(t31 - t31x) + (ax)*(t32 - t32x) + (ax)*(t33 - t33x) + (ax)*(t34 - t34x) + (ax)*(t35 - t35x) + (ax)*(t36 - t36x) + (ay)*(t43 - t43x) + (ay)*(t44 - t44x) + (-ay)*(t45 - t45x) + (-ay)*(t46 - t46x) + (-ay)*(t47 - t47x) + (ay)*(t48 - t48x) + (ay)*(t49 - t49x) + (ay)*(t50 - t50x) + (ay)*(t51 - t51x) + (ay)*(t52 - t52x) + (az)*(t59 - t59x) + (az)*(t60 - t60x) + (-az)*(t61 - t61x) + (-az)*(t62 - t62x) + (-az)*(t63 - t63x) + (az)*(t64 - t64x) + (az)*(t65 - t65x) + (az)*(t66 - t66x) + (az)*(t67 - t67x) + (az)*(t68 - t68x) + (t79 - t79x) + (t80 - t80x) + (t81 - t81x) + (t82 - t82x) + (t83 - t83x) + (t84 - t84x) + (t85 - t85x) + (t86 - t86x) + (t87 - t87x) + (t88 - t88x);
+R - e89 -> (ay*t14 + -az*t12)*(t15 - t15x) + (-ax*t14 + az*t10)*(t17 - t17x) + (ax*t12 + -ay*t10)*(t19 - t19x) + (ax)*(t27 - t27x) + (ax)*(t28 - t28x) + (-ax)*(t29 - t29x) + (-ax)*(t30 - t30x) + (-ax)*(t31 - t31x) + (ax)*(t32 - t32x) + (ax)*(t33 - t33x) + (ax)*(t34 - t34x) + (ax)*(t35 - t35x) + (ax)*(t36 - t36x) + (ay)*(t43 - t43x) + (ay)*(t44 - t44x) + (-ay)*(t45 - t45x) + (-ay)*(t46 - t46x) + (-ay)*(t47 - t47x) + (ay)*(t48 - t48x) + (ay)*(t49 - t49x) + (ay)*(t50 - t50x) + (ay)*(t51 - t51x) + (ay)*(t52 - t52x) + (az)*(t59 - t59x) + (az)*(t60 - t60x) + (-az)*(t61 - t61x) + (-az)*(t62 - t62x) + (-az)*(t63 - t63x) + (az)*(t64 - t64x) + (az)*(t65 - t65x) + (az)*(t66 - t66x) + (az)*(t67 - t67x) + (az)*(t68 - t68x) + (t75 - t75x) + (t76 - t76x) + (t77 - t77x) + (t82 - t82x) + (t83 - t83x) + (t84 - t84x) + (t85 - t85x) + (t86 - t86x) + (t87 - t87x) + (t88 - t88x);

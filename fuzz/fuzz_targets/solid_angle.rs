@@ -108,9 +108,12 @@ fuzz_target!(|input: Input| {
         return;
     }
     let n = spherical::direction(normal);
+    let edges = vertices.iter().zip(vertices.iter().cycle().skip(1));
+    let short = edges.map(|(a, b)| (*a + *b).length()).fold(1.0, f64::min).max(0.5 * f64::EPSILON);
     for (got, want) in [(whole, spherical::projected(&exact, &n)), (above, spherical::projected_above(&exact, &n))] {
         let nearest = want.value().abs();
-        let limit = PROJECTED_BOUND * (f64::from_bits(nearest.to_bits() + 1) - nearest) + MOMENT_FLOOR * square;
+        let limit =
+            PROJECTED_BOUND * (f64::from_bits(nearest.to_bits() + 1) - nearest) + MOMENT_FLOOR * (square + 1.0 / short);
         let error = (&Fixed::from(got) - &want).abs().value();
         assert!(error <= limit, "{normal} {vertices:?}: {got:e} against {:e}", want.value());
     }

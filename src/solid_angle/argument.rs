@@ -30,11 +30,57 @@ const ROUND: f64 = 6_755_399_441_055_744.0;
 /// Argument of re + i im in (−π, π], with a relative error below 2⁻⁶⁴; 0 for 0 + 0i.
 #[inline(always)]
 pub(super) fn argument<T: Real>(re: Double<T>, im: Double<T>) -> Double {
-    reflected(re, im, quotient, |d| {
+    let arctangent = |d: Double<T>| {
         let s = d.hi * d.hi;
         Double { hi: d.hi, lo: d.lo + s * d.hi * series(s) }
-    })
-    .cast()
+    };
+    if 128.0 * im.hi.get().abs() <= re.hi.get() && re.hi.get() > 0.0 {
+        // The same as below with k = 0: polygons of less than a degree or so, the most frequent case by far.
+        return arctangent(quotient(im, re)).cast();
+    }
+    if im.hi.get() == 0.0 {
+        let half_turns = if re.hi.get() < 0.0 { 1.0 } else { 0.0 };
+        return Double { hi: half_turns * PI, lo: half_turns * PI_LOW };
+    }
+    // Signs are bits, and nothing branches: the octant of a large polygon is as good as random.
+    let (behind, below) = (sign_bit(re), sign_bit(im));
+    let (x, y) = (signed(re, behind), signed(im, below));
+    let steep = u64::from(y.hi.get() > x.hi.get());
+    let (long, short) = (either(steep, y, x), either(steep, x, y));
+    let whole = 64.0 * (short.hi.get() / long.hi.get()) + ROUND;
+    let k = whole - ROUND;
+    // What cancels in the numerator may leave a low half as large as the high one.
+    let d = quotient(combined(short, long, -k), combined(long, short, k));
+    let s = d.hi * d.hi;
+    let low = d.lo * (T::constant(1.0) - s) + s * d.hi * series(s);
+    // The lowest bits of `whole` are those of k.
+    let octant = (steep | behind >> 62) as usize;
+    let (start, start_low) = STARTS[octant][(whole.to_bits() & 127).min(64) as usize];
+    let d = signed(Double { hi: d.hi, lo: low }, (steep << 63) ^ behind);
+    let total = T::sum(T::constant(start), d.hi);
+    let low = total.lo + (T::constant(start_low) + d.lo);
+    signed(T::ordered_sum(total.hi, low), below).cast()
+}
+
+/// The sign of a number in the place that it has in a double.
+#[inline(always)]
+fn sign_bit<T: Real>(x: Double<T>) -> u64 {
+    x.hi.get().to_bits() & (1 << 63)
+}
+
+/// The number, its sign changed where the bit is set.
+#[inline(always)]
+fn signed<T: Real>(x: Double<T>, sign: u64) -> Double<T> {
+    let flip = |x: T| T::constant(f64::from_bits(x.get().to_bits() ^ sign));
+    Double { hi: flip(x.hi), lo: flip(x.lo) }
+}
+
+/// `x` if `first` is 1, `y` if it is 0.
+#[inline(always)]
+fn either<T: Real>(first: u64, x: Double<T>, y: Double<T>) -> Double<T> {
+    let mask = first.wrapping_neg();
+    let pick = |x: T, y: T| T::constant(f64::from_bits((x.get().to_bits() & mask) | (y.get().to_bits() & !mask)));
+    Double { hi: pick(x.hi, y.hi), lo: pick(x.lo, y.lo) }
 }
 
 /// `argument` with a relative error of a few u²: the quotient is refined, and the polynomial's first terms are in double
@@ -42,22 +88,32 @@ pub(super) fn argument<T: Real>(re: Double<T>, im: Double<T>) -> Double {
 #[cold]
 pub(super) fn long_argument(re: Double, im: Double) -> Double {
     let inverse = |n: f64| Double::from(1.0) / Double::from(n);
-    reflected(
-        re,
-        im,
-        |p, q| p / q,
-        |d: Double| {
-            let s = d * d;
-            let rest = s.hi * (1.0 / 9.0 + s.hi * (-1.0 / 11.0 + s.hi * (1.0 / 13.0)));
-            let series = -inverse(3.0) + s * (inverse(5.0) + s * (Double::from(rest) - inverse(7.0)));
-            d + d * s * series
-        },
-    )
+    let (behind, below) = (re.hi < 0.0, im.hi < 0.0);
+    if im.hi == 0.0 {
+        return if behind { Double { hi: PI, lo: PI_LOW } } else { Double::default() };
+    }
+    let (x, y) = (if behind { -re } else { re }, if below { -im } else { im });
+    let steep = y.hi > x.hi;
+    let (long, short) = if steep { (y, x) } else { (x, y) };
+    let k = (64.0 * (short.hi / long.hi) + ROUND) - ROUND;
+    let normalised = |x: Double| Double::sum(x.hi, x.lo);
+    let d = normalised(combined(short, long, -k)) / normalised(combined(long, short, k));
+    let s = d * d;
+    let rest = s.hi * (1.0 / 9.0 + s.hi * (-1.0 / 11.0 + s.hi * (1.0 / 13.0)));
+    let series = -inverse(3.0) + s * (inverse(5.0) + s * (Double::from(rest) - inverse(7.0)));
+    let d = d + d * s * series;
+    let (hi, lo) = STARTS[usize::from(steep) + 2 * usize::from(behind)][(k as usize).min(64)];
+    let angle = Double { hi, lo } + if steep == behind { d } else { -d };
+    if below { -angle } else { angle }
 }
 
 /// Argument of re + i im in (−π, π], to within 4u; 0 for 0 + 0i.
 #[inline(always)]
 pub(super) fn short_argument(re: f64, im: f64) -> f64 {
+    if 128.0 * im.abs() <= re && re > 0.0 {
+        let d = im / re;
+        return d + d * d * d * series(d * d);
+    }
     let (x, y) = (re.abs(), im.abs());
     let (long, short) = if y > x { (y, x) } else { (x, y) };
     if long == 0.0 {
@@ -88,55 +144,37 @@ fn quotient<T: Real>(p: Double<T>, q: Double<T>) -> Double<T> {
     Double { hi, lo: (((p.hi - back.hi) - back.lo) + (p.lo - hi * q.lo)) * inverse }
 }
 
-/// The octants put together; `arctangent` serves |d| <= 1/127.
-#[inline(always)]
-fn reflected<T: Real>(
-    re: Double<T>,
-    im: Double<T>,
-    quotient: impl Fn(Double<T>, Double<T>) -> Double<T>,
-    arctangent: impl Fn(Double<T>) -> Double<T>,
-) -> Double<T> {
-    let (behind, below) = (re.hi.get() < 0.0, im.hi.get() < 0.0);
-    if im.hi.get() == 0.0 {
-        let half_turns = if behind { 1.0 } else { 0.0 };
-        return Double { hi: T::constant(half_turns * PI), lo: T::constant(half_turns * PI_LOW) };
-    }
-    let (x, y) = (re.times(sign(behind)), im.times(sign(below)));
-    let steep = y.hi.get() > x.hi.get();
-    let (x, y) = if steep { (y, x) } else { (x, y) };
-    // x and y are the longer and the shorter side from here on, and k <= 64.
-    let k = (64.0 * (y.hi.get() / x.hi.get()) + ROUND) - ROUND;
-    let atan = arctangent(quotient(combined(y, x, -k), combined(x, y, k)));
-    // The angle is turns·π/2 ± (table + atan).
-    let (hi, lo) = ARCTANGENTS[k as usize];
-    let quarters = if steep {
-        1.0
-    } else if behind {
-        2.0
-    } else {
-        0.0
-    };
-    let direction = sign(steep != behind);
-    let (start, start_low) = (T::constant(quarters * (0.5 * PI)), quarters * (0.5 * PI_LOW));
-    let sum = T::sum(start, T::constant(direction * hi));
-    let total = T::sum(sum.hi, T::constant(direction) * atan.hi);
-    let low = (sum.lo + total.lo) + (T::constant(start_low + direction * lo) + T::constant(direction) * atan.lo);
-    T::sum(total.hi, low).times(sign(below))
-}
-
-/// −1 or 1.
-#[inline(always)]
-fn sign(negative: bool) -> f64 {
-    if negative { -1.0 } else { 1.0 }
-}
-
-/// 64 x + k y for a whole k of at most 7 bits, within a few u² of the two terms.
+/// 64 x + k y for a whole k of at most 7 bits, within a few u² of the two terms, not normalised.
 #[inline(always)]
 fn combined<T: Real>(x: Double<T>, y: Double<T>, k: f64) -> Double<T> {
     let (x, k) = (x.times(64.0), T::constant(k));
     let product = T::product(y.hi, k);
     let sum = T::sum(x.hi, product.hi);
-    T::sum(sum.hi, sum.lo + ((product.lo + x.lo) + y.lo * k))
+    Double { hi: sum.hi, lo: sum.lo + ((product.lo + x.lo) + y.lo * k) }
+}
+
+/// Where the arctangent of d is added to, or taken from, in each octant of the upper half plane, for k = 0 … 64: from 0
+/// forwards, from π/2 and from π backwards, from π/2 forwards.
+static STARTS: [[(f64, f64); 65]; 4] = {
+    let mut starts = [ARCTANGENTS; 4];
+    let mut k = 0;
+    while k < 65 {
+        let (hi, lo) = ARCTANGENTS[k];
+        starts[1][k] = sum(0.5 * PI, -hi, 0.5 * PI_LOW - lo);
+        starts[2][k] = sum(PI, -hi, PI_LOW - lo);
+        starts[3][k] = sum(0.5 * PI, hi, 0.5 * PI_LOW + lo);
+        k += 1;
+    }
+    starts
+};
+
+/// a + b + low as a double and what is left of it.
+const fn sum(a: f64, b: f64, low: f64) -> (f64, f64) {
+    let hi = a + b;
+    let t = hi - a;
+    let low = (a - (hi - t)) + (b - t) + low;
+    let sum = hi + low;
+    (sum, low - (sum - hi))
 }
 
 /// atan(k/64) for k = 0 … 64, each as a double and what is left of it.

@@ -1,7 +1,14 @@
-//! The kernels are compiled twice, and the processor chooses: with its fused multiply-add, or without. The bits are the same.
-#![allow(unsafe_code, reason = "a function compiled for a feature of the processor is unsafe to call before Rust 1.86")]
+//! The kernels are compiled twice, and the processor chooses: with its vectors of four doubles and its fused multiply-add,
+//! or without. The bits are the same.
+#![allow(unsafe_code, reason = "what is compiled for a feature of the processor is unsafe to call before Rust 1.86")]
+
+#[cfg(target_arch = "x86_64")]
+mod fused;
 
 use super::double::Real;
+
+#[cfg(target_arch = "x86_64")]
+pub(super) use fused::Fused;
 
 /// A computation that is generic over its arithmetic; `run` and what it calls are `#[inline(always)]`, so that they
 /// are compiled with the features of their caller.
@@ -13,17 +20,24 @@ pub(super) trait Kernel {
 /// `kernel`, in the fastest arithmetic of this processor.
 #[inline]
 pub(super) fn run<K: Kernel>(kernel: K) -> K::Output {
-    #[cfg(all(target_arch = "x86_64", not(target_feature = "fma")))]
-    if std::arch::is_x86_feature_detected!("fma") {
+    #[cfg(target_arch = "x86_64")]
+    if has_registers() {
         // SAFETY: the processor has what the function is compiled for.
         return unsafe { fused(kernel) };
     }
     kernel.run::<f64>()
 }
 
-/// `kernel` compiled for the fused multiply-add.
-#[cfg(all(target_arch = "x86_64", not(target_feature = "fma")))]
-#[target_feature(enable = "fma")]
+/// Whether this processor has vectors of four doubles and the fused multiply-add.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+pub(super) fn has_registers() -> bool {
+    std::arch::is_x86_feature_detected!("fma") && std::arch::is_x86_feature_detected!("avx2")
+}
+
+/// `kernel` compiled for vectors and the fused multiply-add.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
 unsafe fn fused<K: Kernel>(kernel: K) -> K::Output {
-    kernel.run::<super::fused::Fused>()
+    kernel.run::<Fused>()
 }

@@ -6,8 +6,9 @@
 //! the product exceeds 2⁻⁹⁶⁹). The other operations lose a few u² of the magnitudes that enter them.
 //!
 //! Everything is generic over the [`Number`] that the two halves are. `f64` takes the low half of a product with Veltkamp's
-//! splitting, `Fused` with one fused multiply-add; both are exact, so the bits are the same. A number that records its own
-//! operations turns the same source into the script of a proof: docs/proofs/README.md.
+//! splitting, `Fused` with one fused multiply-add; both are exact, so the bits are the same. Where a half would underflow
+//! (products below 2⁻⁹⁶⁹) both take the fused one, rounded once to what is left of the range: the same bits there too.
+//! A number that records its own operations turns the same source into the script of a proof: docs/proofs/README.md.
 //!
 //! # Source
 //!
@@ -24,14 +25,45 @@ pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = 
     /// a + b, exactly.
     fn sum(a: Self, b: Self) -> Double<Self>;
 
+    /// a + b, exactly where |a| >= |b| or a = 0: Dekker's shorter way.
+    #[inline(always)]
+    fn ordered_sum(a: Self, b: Self) -> Double<Self> {
+        let hi = a + b;
+        Double { hi, lo: b - (hi - a) }
+    }
+
     /// a b, exactly.
     fn product(a: Self, b: Self) -> Double<Self>;
 }
 
 /// A number with a value, to divide by and to compare.
 pub trait Real: Number + Div<Output = Self> {
+    /// Four of them, computed with together.
+    type Four: Four<Self>;
+
     /// The number itself.
     fn get(self) -> f64;
+}
+
+/// Four numbers that are computed with together, each as it would be alone.
+pub trait Four<T>: Number {
+    /// The numbers as given.
+    fn new(numbers: [f64; 4]) -> Self;
+
+    /// A vector, and 0.
+    fn vector(v: &[f64; 3]) -> Self;
+
+    /// The first, the second and the third numbers of the three; the fourth numbers of the result mean nothing.
+    fn columns(rows: [Self; 3]) -> [Self; 3];
+
+    /// The numbers one by one.
+    fn get(self) -> [T; 4];
+
+    /// The second, third, first and fourth number: of a vector (x, y, z) it is (y, z, x).
+    fn turned(self) -> Self;
+
+    /// The fourth number of `before`, then the first three of these.
+    fn after(self, before: Self) -> Self;
 }
 
 /// The number `hi + lo`, with `hi` the double nearest to it.
@@ -52,6 +84,17 @@ fn split(x: f64) -> (f64, f64) {
     (hi, x - hi)
 }
 
+/// Below this size the halves' products may lose bits that a fused multiply-add keeps: 2⁻⁹⁶⁹.
+const SPLIT_FLOOR: f64 = f64::MIN_POSITIVE * (1_u64 << 53) as f64;
+
+/// a + b and what its rounding leaves.
+#[inline(always)]
+pub fn exact_sum<T: Copy + Add<Output = T> + Sub<Output = T>>(a: T, b: T) -> Double<T> {
+    let hi = a + b;
+    let t = hi - a;
+    Double { hi, lo: (a - (hi - t)) + (b - t) }
+}
+
 impl Number for f64 {
     #[inline(always)]
     fn constant(x: f64) -> Self {
@@ -60,15 +103,13 @@ impl Number for f64 {
 
     #[inline(always)]
     fn sum(a: Self, b: Self) -> Double {
-        let hi = a + b;
-        let t = hi - a;
-        Double { hi, lo: (a - (hi - t)) + (b - t) }
+        exact_sum(a, b)
     }
 
     #[inline(always)]
     fn product(a: Self, b: Self) -> Double {
         let hi = a * b;
-        if FUSED {
+        if FUSED || (hi.abs() < SPLIT_FLOOR && hi != 0.0) {
             return Double { hi, lo: a.mul_add(b, -hi) };
         }
         let ((ah, al), (bh, bl)) = (split(a), split(b));
@@ -77,9 +118,107 @@ impl Number for f64 {
 }
 
 impl Real for f64 {
+    type Four = Plain<f64>;
+
     #[inline(always)]
     fn get(self) -> f64 {
         self
+    }
+}
+
+/// Four numbers beside each other.
+#[derive(Clone, Copy, Debug)]
+pub struct Plain<T>([T; 4]);
+
+impl<T: Number> Plain<T> {
+    #[inline(always)]
+    fn each(f: impl Fn(usize) -> T) -> Self {
+        Self([f(0), f(1), f(2), f(3)])
+    }
+}
+
+impl<T: Number> Number for Plain<T> {
+    #[inline(always)]
+    fn constant(x: f64) -> Self {
+        Self([T::constant(x); 4])
+    }
+
+    #[inline(always)]
+    fn sum(a: Self, b: Self) -> Double<Self> {
+        exact_sum(a, b)
+    }
+
+    #[inline(always)]
+    fn product(a: Self, b: Self) -> Double<Self> {
+        let product = |i: usize| T::product(a.0[i], b.0[i]);
+        let (p, q, r, s) = (product(0), product(1), product(2), product(3));
+        Double { hi: Self([p.hi, q.hi, r.hi, s.hi]), lo: Self([p.lo, q.lo, r.lo, s.lo]) }
+    }
+}
+
+impl<T: Number> Four<T> for Plain<T> {
+    #[inline(always)]
+    fn new([x, y, z, w]: [f64; 4]) -> Self {
+        Self([T::constant(x), T::constant(y), T::constant(z), T::constant(w)])
+    }
+
+    #[inline(always)]
+    fn after(self, before: Self) -> Self {
+        let ([x, y, z, _], [.., w]) = (self.0, before.0);
+        Self([w, x, y, z])
+    }
+
+    #[inline(always)]
+    fn vector(v: &[f64; 3]) -> Self {
+        Self([T::constant(v[0]), T::constant(v[1]), T::constant(v[2]), T::constant(0.0)])
+    }
+
+    #[inline(always)]
+    fn columns(rows: [Self; 3]) -> [Self; 3] {
+        three(|i| Self([rows[0].0[i], rows[1].0[i], rows[2].0[i], T::constant(0.0)]))
+    }
+
+    #[inline(always)]
+    fn get(self) -> [T; 4] {
+        self.0
+    }
+
+    #[inline(always)]
+    fn turned(self) -> Self {
+        let [x, y, z, w] = self.0;
+        Self([y, z, x, w])
+    }
+}
+
+impl<T: Number> Add for Plain<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self::each(|i| self.0[i] + other.0[i])
+    }
+}
+
+impl<T: Number> Sub for Plain<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self::each(|i| self.0[i] - other.0[i])
+    }
+}
+
+impl<T: Number> Mul for Plain<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Self::each(|i| self.0[i] * other.0[i])
+    }
+}
+
+impl<T: Number> Neg for Plain<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self::each(|i| -self.0[i])
     }
 }
 
@@ -140,6 +279,12 @@ impl<T: Real> Double<T> {
 }
 
 impl Double {
+    /// Two times the number.
+    #[inline(always)]
+    pub fn twice(self) -> Self {
+        Self { hi: 2.0 * self.hi, lo: 2.0 * self.lo }
+    }
+
     /// The square root of a number >= 0.
     pub fn sqrt(self) -> Self {
         let root = self.hi.sqrt();
@@ -160,7 +305,12 @@ pub fn three<U>(f: impl Fn(usize) -> U) -> [U; 3] {
 /// a·b, within a few u² of Σ |aᵢ bᵢ|; `hi` is near the sum, not always nearest to it.
 #[inline(always)]
 pub fn dot<T: Number>(a: [T; 3], b: [T; 3]) -> Double<T> {
-    let [x, y, z] = three(|i| T::product(a[i], b[i]));
+    total([T::product(a[0], b[0]), T::product(a[1], b[1]), T::product(a[2], b[2])])
+}
+
+/// x + y + z, likewise.
+#[inline(always)]
+pub fn total<T: Number>([x, y, z]: [Double<T>; 3]) -> Double<T> {
     let s = T::sum(x.hi, y.hi);
     let t = T::sum(s.hi, z.hi);
     Double { hi: t.hi, lo: ((x.lo + y.lo) + z.lo) + (s.lo + t.lo) }

@@ -35,27 +35,24 @@
 //! angles", 1990 (the same quotient for unit vectors); Mazonka, "Solid angle of conical surfaces, polyhedral cones, and
 //! intersecting spherical caps", 2012 (one argument of a product).
 
-use core::f64::consts::PI;
-
 use glam::DVec3;
 
 use super::argument::argument;
+use super::check::UNIT_TOLERANCE;
 use super::dispatch::{self, Kernel};
-use super::double::{Double, Real, dot, three};
+use super::double::{Double, Number, Real, dot, three};
 use super::exact;
-use super::kernel::{self, Complex, denominator, numerator, times};
+use super::kernel::{self, Complex, denominator, excess_of, numerator, times};
+use super::strands;
 
 /// Below this part of the two lengths the compensated numerator is not trusted: 2⁻⁴².
-const NUMERATOR_FLOOR: f64 = 1.0 / (1_u64 << 42) as f64;
+pub(super) const NUMERATOR_FLOOR: f64 = 1.0 / (1_u64 << 42) as f64;
 
 /// Below this magnitude of a factor some edge is nearly a half turn: 2⁻¹⁶.
-const FACTOR_FLOOR: f64 = 1.0 / (1_u64 << 16) as f64;
+pub(super) const FACTOR_FLOOR: f64 = 1.0 / (1_u64 << 16) as f64;
 
 /// What is left of parts that cancel, relative to the parts, is noise below this: 2⁻⁹⁸.
 const NOISE: f64 = 1.0 / ((1_u64 << 49) as f64 * (1_u64 << 49) as f64);
-
-/// 4π − `4.0 * PI`.
-const FOUR_PI_LOW: f64 = 4.898_587_196_589_413e-16;
 
 /// What the fan of a loop adds up to.
 #[derive(Clone, Copy, Debug, Default)]
@@ -72,96 +69,131 @@ pub(super) struct Fan {
 }
 
 impl Fan {
+    /// The fan with the argument of its product.
+    #[inline(always)]
+    pub fn finished<T: Real>(mut self, Complex { re, mut im }: Complex<T>) -> Self {
+        let (x, y) = (re.hi.get().abs(), im.hi.get().abs());
+        if y <= NOISE * self.swept * (x + y) {
+            // From just above −π to π.
+            self.turns -= i64::from(re.hi.get() < 0.0 && im.hi.get() < 0.0);
+            im = Double::constant(0.0);
+        }
+        self.half = argument(re, im);
+        self
+    }
+
+    /// The product of what was multiplied so far and another factor, whose turns are counted.
+    #[inline(always)]
+    pub fn multiplied<T: Real>(&mut self, old: Complex<T>, factor: Complex<T>) -> Complex<T> {
+        let new = scaled(times(old, factor));
+        self.turns += turn(upper(old), upper(factor), upper(new));
+        new
+    }
+
     /// The signed solid angle before it is rounded.
     pub fn angle(&self) -> Double {
-        Double { hi: 2.0 * self.half.hi, lo: 2.0 * self.half.lo }
+        self.half.twice()
     }
 
     /// The signed solid angle, in (−2π, 2π].
     pub fn signed(&self) -> f64 {
         2.0 * self.half.value()
     }
-
-    /// The solid angle of the region on the left, in [0, 4π).
-    pub fn unsigned(&self) -> f64 {
-        if self.half.hi >= 0.0 {
-            return self.signed();
-        }
-        let sum = Double::sum(4.0 * PI, 2.0 * self.half.hi);
-        sum.hi + (sum.lo + (2.0 * self.half.lo + FOUR_PI_LOW))
-    }
 }
 
 /// The fan of a loop without whiskers; any loop of fewer than three vertices has none.
 pub(super) fn fan(vertices: &[DVec3]) -> Fan {
-    dispatch::run(Loop(vertices))
+    dispatch::run(Loop { vertices, checked: true }).unwrap_or_default()
 }
 
-struct Loop<'a>(&'a [DVec3]);
+/// The fan of a loop that nobody has checked; none where it takes a closer look.
+///
+/// What a loop is checked for shows in what is computed anyway: the norms are known, and equal or opposite directions make
+/// N or z nothing. An edge walked forth and back makes two neighbouring factors conjugate, or stands at the apex.
+pub(super) fn unchecked(vertices: &[DVec3]) -> Option<Fan> {
+    let [_, second, .., last] = vertices else { return None };
+    if (*second - *last).abs().max_element() <= UNIT_TOLERANCE * 2.0 {
+        return None;
+    }
+    dispatch::run(Loop { vertices, checked: false })
+}
+
+struct Loop<'a> {
+    vertices: &'a [DVec3],
+    /// Whether the loop is checked and pruned. If it is not, the kernel gives up where that may matter.
+    checked: bool,
+}
 
 impl Kernel for Loop<'_> {
-    type Output = Fan;
+    type Output = Option<Fan>;
 
     #[inline(always)]
-    fn run<T: Real>(self) -> Fan {
-        let [apex, first, rest @ ..] = self.0 else { return Fan::default() };
-        let apex = Apex::<T>::new(apex.to_array());
-        let mut sum = Fan::default();
-        let mut product = None;
-        let mut b = Spoke::new(&apex, first.to_array());
-        let mut rest = rest.iter();
-        while let Some(c) = rest.next() {
-            let c = c.to_array();
-            let (factor, spoke) = if exact::antipodal(values(apex.v), c) {
-                // The next vertex is neither this one nor the apex: the loop was checked and pruned.
-                let Some(next) = rest.next() else { break };
-                let next = next.to_array();
-                (lune(&apex, values(b.v), next), Spoke::new(&apex, next))
-            } else {
-                let c = Spoke::new(&apex, c);
-                (triangle(&apex, &b, &c), c)
-            };
-            sum.swept += slope(factor);
-            sum.factors += 1;
-            product = Some(match product {
-                None => factor,
-                Some(old) => {
-                    let new = scaled(times(old, factor));
-                    sum.turns += turn(upper(old), upper(factor), upper(new));
-                    new
-                }
-            });
-            b = spoke;
+    fn run<T: Real>(self) -> Option<Fan> {
+        match strands::fan::<T>(self.vertices) {
+            None if self.checked => Some(one_after_another::<T>(self.vertices)),
+            fan => fan,
         }
-        let Some(Complex { re, mut im }) = product else { return Fan::default() };
-        let (x, y) = (re.hi.get().abs(), im.hi.get().abs());
-        if y <= NOISE * sum.swept * (x + y) {
-            // From just above −π to π.
-            sum.turns -= i64::from(re.hi.get() < 0.0 && im.hi.get() < 0.0);
-            im = Double::constant(0.0);
-        }
-        sum.half = argument(re, im);
-        sum
     }
 }
 
+/// The fan of any loop that is checked and pruned, one triangle after another.
+#[inline(always)]
+fn one_after_another<T: Real>(vertices: &[DVec3]) -> Fan {
+    let [apex, first, rest @ ..] = vertices else { return Fan::default() };
+    let apex = Apex::<T>::new(apex.to_array());
+    let mut sum = Fan::default();
+    let mut product = None;
+    let mut b = Spoke::new(&apex, numbers(first.to_array()));
+    let mut rest = rest.iter();
+    while let Some(c) = rest.next() {
+        let c = c.to_array();
+        let (factor, spoke) = if exact::antipodal(values(apex.v), c) {
+            // The next vertex is neither this one nor the apex.
+            let Some(next) = rest.next() else { break };
+            let next = next.to_array();
+            (lune(&apex, values(b.v), next), Spoke::new(&apex, numbers(next)))
+        } else {
+            let c = Spoke::new(&apex, numbers(c));
+            (triangle(&apex, &b, &c), c)
+        };
+        sum.swept += slope(factor);
+        sum.factors += 1;
+        product = Some(match product {
+            None => factor,
+            Some(old) => sum.multiplied(old, factor),
+        });
+        b = spoke;
+    }
+    product.map_or_else(Fan::default, |product| sum.finished(product))
+}
+
 /// The vertex that all triangles share.
-struct Apex<T> {
-    v: [T; 3],
+pub(super) struct Apex<T> {
+    pub v: [T; 3],
+    /// |v|² − 1.
+    pub norm_error: T,
     /// |v| − 1.
-    excess: T,
+    pub excess: T,
 }
 
 /// A vertex on the rim of the fan, with what two neighbouring triangles share.
 #[derive(Clone, Copy)]
-struct Spoke<T> {
-    v: [T; 3],
+pub(super) struct Spoke<T> {
+    pub v: [T; 3],
+    /// |v|² − 1.
+    pub norm_error: T,
     /// |v| − 1.
-    excess: T,
+    pub excess: T,
     /// v − apex.
-    offset: [Double<T>; 3],
+    pub offset: [Double<T>; 3],
     /// v · apex.
-    cosine: Double<T>,
+    pub cosine: Double<T>,
+}
+
+/// A vector in the arithmetic.
+#[inline(always)]
+pub(super) fn numbers<T: Number>([x, y, z]: [f64; 3]) -> [T; 3] {
+    [T::constant(x), T::constant(y), T::constant(z)]
 }
 
 /// The plain numbers of a vector.
@@ -170,19 +202,21 @@ fn values<T: Real>(v: [T; 3]) -> [f64; 3] {
     three(|i| v[i].get())
 }
 
-impl<T: Real> Apex<T> {
+impl<T: Number> Apex<T> {
     #[inline(always)]
-    fn new(v: [f64; 3]) -> Self {
-        let v = three(|i| T::constant(v[i]));
-        Self { v, excess: kernel::excess(v) }
+    pub fn new(v: [f64; 3]) -> Self {
+        let v = numbers(v);
+        let norm_error = kernel::norm_error(v);
+        Self { v, norm_error, excess: excess_of(norm_error) }
     }
 }
 
-impl<T: Real> Spoke<T> {
+impl<T: Number> Spoke<T> {
     #[inline(always)]
-    fn new(apex: &Apex<T>, v: [f64; 3]) -> Self {
-        let v = three(|i| T::constant(v[i]));
-        Self { v, excess: kernel::excess(v), offset: kernel::offset(apex.v, v), cosine: dot(apex.v, v) }
+    pub fn new(apex: &Apex<T>, v: [T; 3]) -> Self {
+        let norm_error = kernel::norm_error(v);
+        let (offset, cosine) = (kernel::offset(apex.v, v), dot(apex.v, v));
+        Self { v, norm_error, excess: excess_of(norm_error), offset, cosine }
     }
 }
 
@@ -211,7 +245,7 @@ fn turn(old: bool, factor: bool, new: bool) -> i64 {
 
 /// `z`, scaled by a power of two where it leaves the middle of the range.
 #[inline(always)]
-fn scaled<T: Real>(z: Complex<T>) -> Complex<T> {
+pub(super) fn scaled<T: Real>(z: Complex<T>) -> Complex<T> {
     let magnitude = z.re.hi.get().abs().max(z.im.hi.get().abs());
     if (FACTOR_FLOOR..=1.0 / FACTOR_FLOOR).contains(&magnitude) || magnitude == 0.0 {
         return z;
@@ -220,6 +254,12 @@ fn scaled<T: Real>(z: Complex<T>) -> Complex<T> {
     let scale = T::constant(1.0 / f64::from_bits(magnitude.to_bits() & 0x7ff0_0000_0000_0000).max(f64::MIN_POSITIVE));
     let scaled = |x: Double<T>| Double { hi: x.hi * scale, lo: x.lo * scale };
     Complex { re: scaled(z.re), im: scaled(z.im) }
+}
+
+/// Whether every rounding of the check accepts a vertex of this |v|² − 1.
+#[inline(always)]
+pub(super) fn surely_unit<T: Real>(norm_error: T) -> bool {
+    norm_error.get().abs() <= UNIT_TOLERANCE * (1.0 - 1e-3)
 }
 
 /// The factor of the triangle `apex b c`.
@@ -233,8 +273,7 @@ fn triangle<T: Real>(apex: &Apex<T>, b: &Spoke<T>, c: &Spoke<T>) -> Complex<T> {
     if im.hi.get().abs() <= NUMERATOR_FLOOR * length(&b.offset) * length(&c.offset) {
         im = exact::determinant(values(apex.v), values(b.v), values(c.v)).cast();
     }
-    let cosines = [b.cosine, dot(b.v, c.v), c.cosine];
-    let re = denominator(cosines, [apex.excess, b.excess, c.excess]);
+    let re = denominator([b.cosine, dot(b.v, c.v), c.cosine], [apex.excess, b.excess, c.excess]);
     if re.hi.get().abs() + im.hi.get().abs() < FACTOR_FLOOR {
         let Complex { re, im } = near_antipodal(values(apex.v), values(b.v), values(c.v), im.cast());
         return Complex { re: re.cast(), im: im.cast() };
@@ -288,10 +327,16 @@ mod tests {
 
     use glam::DVec3;
 
-    use super::super::dispatch::Kernel;
-    use super::super::fused::Fused;
     use super::super::kernel::excess;
-    use super::{Fan, Loop, fan};
+    #[cfg(target_arch = "x86_64")]
+    use super::super::{
+        dispatch::{Fused, Kernel, has_registers},
+        double::{Number, Real},
+        triangle::Triangle,
+    };
+    use super::{Fan, fan, one_after_another, strands};
+    #[cfg(target_arch = "x86_64")]
+    use super::{Loop, unchecked};
 
     /// The sum over the fan, not reduced.
     fn total(fan: &Fan) -> f64 {
@@ -332,7 +377,36 @@ mod tests {
         assert_eq!(fan(&equator).half.value(), PI);
     }
 
+    #[test]
+    fn what_a_check_would_find_is_never_taken_unchecked() {
+        let v = |x: f64, y: f64, z: f64| DVec3::new(x, y, z).normalize();
+        let (a, b, c, d) = (v(1.0, 0.2, 0.1), v(0.3, 1.0, -0.2), v(-0.4, 0.9, 0.5), v(0.2, 0.1, 1.0));
+        // The same direction, not the same bits.
+        let longer = DVec3::new(0.0, 1.0 + 2.0 * f64::EPSILON, 0.0);
+        let offences = [
+            vec![a, b, c, d, c],             // walked back
+            vec![a, DVec3::Y, c, longer, d], // likewise
+            vec![a, b, b, c, d],             // repeated
+            vec![a, b, -b, c, d],            // no edge
+            vec![a, b, c * (1.0 + 1e-11), d],
+            vec![a, b, c, DVec3::NAN],
+        ];
+        assert!(unchecked(&[a, b, c, d]).is_some());
+        for mut vertices in offences {
+            for _ in 0..vertices.len() {
+                vertices.rotate_left(1);
+                assert!(unchecked(&vertices).is_none(), "{vertices:?}");
+            }
+        }
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    fn checked(vertices: &[DVec3]) -> Loop<'_> {
+        Loop { vertices, checked: true }
+    }
+
     /// Loops of every kind that the kernel tells apart, from a linear congruence.
+    #[cfg(target_arch = "x86_64")]
     fn loops() -> impl Iterator<Item = Vec<DVec3>> {
         let mut state = 1_u64;
         let mut next = move || {
@@ -357,17 +431,43 @@ mod tests {
                 4 => vec![a, b, -a, direction(), near(-a, direction())],
                 5 => (0..40).map(|_| direction()).collect(),
                 6 => vec![a, b, -(a + b).normalize(), near(a, direction())],
-                _ => (0..6).map(|_| near(DVec3::Z, size * direction() * DVec3::new(1.0, 1e-250, 1.0))).collect(),
+                _ => {
+                    // Products below 2⁻⁹⁶⁹, which lose low bits, and below 2⁻¹⁰⁷⁴, which vanish.
+                    let flat = DVec3::new(1.0, 10_f64.powi(-(i / 8 % 320)), 1.0);
+                    (0..3 + i / 8 % 2 * 3).map(|_| near(DVec3::Z, size * direction() * flat)).collect()
+                }
             }
         })
     }
 
+    #[cfg(target_arch = "x86_64")]
+    #[test]
+    fn both_copies_multiply_alike_down_to_the_smallest_doubles() {
+        for i in 0..4000_u32 {
+            let (a, b) = (1.0 / f64::from(2 * i + 3), 0.7 / f64::from(i + 1));
+            let b = b * 2_f64.powi(-960) * 2_f64.powi(-(i as i32 % 120));
+            let (split, fused) =
+                (<f64 as Number>::product(a, b), Fused::product(Fused::constant(a), Fused::constant(b)));
+            assert_eq!((split.hi, split.lo), (fused.hi.get(), fused.lo.get()), "{a:e} · {b:e}");
+        }
+    }
+
+    #[cfg(target_arch = "x86_64")]
     #[test]
     fn both_copies_give_the_same_bits() {
         for vertices in loops() {
-            let (split, fused) = (Loop(&vertices).run::<f64>(), Loop(&vertices).run::<Fused>());
+            let (split, fused) = (checked(&vertices).run::<f64>(), checked(&vertices).run::<Fused>());
             assert_eq!(format!("{split:?}"), format!("{fused:?}"), "{vertices:?}");
-            assert_eq!(format!("{split:?}"), format!("{:?}", fan(&vertices)), "{vertices:?}");
+            assert_eq!(format!("{split:?}"), format!("{:?}", Some(fan(&vertices))), "{vertices:?}");
+            // Who gives up gives nothing, and who does not gives the same.
+            assert!(unchecked(&vertices).is_none_or(|quick| format!("{:?}", Some(quick)) == format!("{split:?}")));
+            let [a, b, c] = &vertices[..] else { continue };
+            if has_registers() {
+                let (split, fused) = (Triangle(a, b, c).run::<f64>(), Triangle(a, b, c).run::<Fused>());
+                assert_eq!(format!("{split:?}"), format!("{fused:?}"), "{vertices:?}");
+                let whole = fan(&vertices).angle().value();
+                assert!(split.is_none_or(|quick| quick.value() == whole), "{vertices:?}: {split:?} against {whole:e}");
+            }
         }
     }
 }

@@ -3,7 +3,7 @@
 //! Generic over the number, and dependent on nothing but double length: the proofs of docs/proofs are written by running
 //! these very functions on numbers that record what is done to them.
 
-use super::double::{Double, Number, dot, three};
+use super::double::{Double, Number, dot, total};
 
 /// u² = 2⁻¹⁰⁶.
 const U2: f64 = 0.25 * f64::EPSILON * f64::EPSILON;
@@ -35,7 +35,12 @@ pub struct Complex<T> {
 /// |v| − 1 of a near-unit vector, from its compensated norm; the third power of the deviation is below 2⁻¹²².
 #[inline(always)]
 pub fn excess<T: Number>(v: [T; 3]) -> T {
-    let error = norm_error(v);
+    excess_of(norm_error(v))
+}
+
+/// |v| − 1 from |v|² − 1.
+#[inline(always)]
+pub fn excess_of<T: Number>(error: T) -> T {
     error * (T::constant(0.5) - T::constant(0.125) * error)
 }
 
@@ -49,22 +54,33 @@ pub fn norm_error<T: Number>(v: [T; 3]) -> T {
 /// v − a, exactly.
 #[inline(always)]
 pub fn offset<T: Number>(a: [T; 3], v: [T; 3]) -> [Double<T>; 3] {
-    three(|i| Double::difference(v[i], a[i]))
+    [Double::difference(v[0], a[0]), Double::difference(v[1], a[1]), Double::difference(v[2], a[2])]
 }
 
 /// apex·(p×q).
 #[inline(always)]
 pub fn numerator<T: Number>(apex: [T; 3], p: &[Double<T>; 3], q: &[Double<T>; 3]) -> Double<T> {
-    let minor = |i: usize, j: usize| {
-        let (u, v) = (T::product(p[i].hi, q[j].hi), T::product(p[j].hi, q[i].hi));
-        let n = Double::difference(u.hi, v.hi);
-        let cross = p[i].hi * q[j].lo + (p[i].lo * q[j].hi - (p[j].hi * q[i].lo + p[j].lo * q[i].hi));
-        (n.hi, ((u.lo - v.lo) + n.lo) + cross)
-    };
-    let n = [minor(1, 2), minor(2, 0), minor(0, 1)];
-    let main = dot(apex, three(|i| n[i].0));
-    let low = apex[0] * n[0].1 + apex[1] * n[1].1 + apex[2] * n[2].1;
-    Double::sum(main.hi, main.lo + low)
+    let x = minor(p[1], p[2], q[1], q[2]);
+    let y = minor(p[2], p[0], q[2], q[0]);
+    let z = minor(p[0], p[1], q[0], q[1]);
+    let heads = [T::product(apex[0], x.hi), T::product(apex[1], y.hi), T::product(apex[2], z.hi)];
+    volume(heads, [apex[0] * x.lo, apex[1] * y.lo, apex[2] * z.lo])
+}
+
+/// A component p q′ − p′ q of a product of two vectors, its low half not normalised.
+#[inline(always)]
+pub fn minor<T: Number>(p: Double<T>, p1: Double<T>, q: Double<T>, q1: Double<T>) -> Double<T> {
+    let (u, v) = (T::product(p.hi, q1.hi), T::product(p1.hi, q.hi));
+    let n = Double::difference(u.hi, v.hi);
+    let cross = p.hi * q1.lo + (p.lo * q1.hi - (p1.hi * q.lo + p1.lo * q.hi));
+    Double { hi: n.hi, lo: ((u.lo - v.lo) + n.lo) + cross }
+}
+
+/// The sum of the three terms of a determinant and of what their low halves add.
+#[inline(always)]
+pub fn volume<T: Number>(terms: [Double<T>; 3], low: [T; 3]) -> Double<T> {
+    let main = total(terms);
+    T::ordered_sum(main.hi, main.lo + (low[0] + low[1] + low[2]))
 }
 
 /// |a||b||c| + (a·b)|c| + (b·c)|a| + (c·a)|b|, but for the product of all three deviations of the norms from 1.
@@ -78,7 +94,7 @@ pub fn denominator<T: Number>(cosines: [Double<T>; 3], excesses: [T; 3]) -> Doub
     let w = T::sum(t.hi, T::constant(1.0));
     let norms = (a + b + c) + (bc.hi * a + ca.hi * b + ab.hi * c) + (a * b + b * c + c * a);
     let low = ((ab.lo + ca.lo) + bc.lo) + ((s.lo + t.lo) + w.lo);
-    T::sum(w.hi, low + norms)
+    T::ordered_sum(w.hi, low + norms)
 }
 
 /// y z.

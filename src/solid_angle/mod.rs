@@ -28,6 +28,10 @@
 //!    number of vertices: tests/solid_angle_laws.rs.
 //! 6. The bits of a result do not depend on the machine: arithmetic and correctly rounded functions only.
 //!
+//! Proved by machine are the kernel of one triangle and one multiplication, see docs/proofs/README.md, which also says what is
+//! outside: the product of many factors, the arctangent, moments, projections, [`seen_from`] and [`geographic_polygon`] are
+//! searched against exact values, not proved.
+//!
 //! # Not here
 //!
 //! - Vectors of other lengths: [`seen_from`] the origin takes their exact directions.
@@ -68,15 +72,17 @@ mod exact;
 mod fan;
 pub mod fast;
 pub mod formula;
-mod fused;
 mod geographic;
 mod kernel;
 mod moment;
 mod product;
 mod projected;
 mod seen;
+mod strands;
+mod triangle;
 mod winding;
 
+use double::Double;
 use glam::DVec3;
 
 pub use bounded::{Bounded, polygon_bounded, signed_polygon_bounded};
@@ -136,8 +142,12 @@ pub const MOMENT_FLOOR: f64 = f64::EPSILON * f64::EPSILON;
 /// assert_eq!(solid_angle::triangle(DVec3::Z, DVec3::Y, DVec3::X)?, -FRAC_PI_2);
 /// # Ok::<(), solid_angle::SolidAngleError>(())
 /// ```
+#[inline]
 pub fn triangle(a: DVec3, b: DVec3, c: DVec3) -> Result<f64, SolidAngleError> {
-    signed_polygon(&[a, b, c])
+    match triangle::angle(&a, &b, &c) {
+        Some(angle) => Ok(angle.value()),
+        None => careful_angle(&[a, b, c]).map(Double::value),
+    }
 }
 
 /// Solid angle of the region on the left of the closed loop `vertices`, in steradians.
@@ -179,7 +189,7 @@ pub fn triangle(a: DVec3, b: DVec3, c: DVec3) -> Result<f64, SolidAngleError> {
 /// # Ok::<(), solid_angle::SolidAngleError>(())
 /// ```
 pub fn polygon(vertices: &[DVec3]) -> Result<f64, SolidAngleError> {
-    measured(vertices, |pruned| fan::fan(pruned).unsigned())
+    angle(vertices).map(product::unsigned)
 }
 
 /// Signed solid angle of the region on the left of the closed loop `vertices`, in steradians.
@@ -210,7 +220,7 @@ pub fn polygon(vertices: &[DVec3]) -> Result<f64, SolidAngleError> {
 /// # Ok::<(), solid_angle::SolidAngleError>(())
 /// ```
 pub fn signed_polygon(vertices: &[DVec3]) -> Result<f64, SolidAngleError> {
-    measured(vertices, |pruned| fan::fan(pruned).signed())
+    angle(vertices).map(Double::value)
 }
 
 /// Vector moment ∫ ω dω of the region on the left of the closed loop `vertices`.
@@ -252,6 +262,22 @@ pub fn signed_polygon(vertices: &[DVec3]) -> Result<f64, SolidAngleError> {
 /// ```
 pub fn vector_moment(vertices: &[DVec3]) -> Result<DVec3, SolidAngleError> {
     measured(vertices, moment::vector_moment)
+}
+
+/// The signed solid angle of the loop, in (−2π, 2π].
+#[inline(always)]
+fn angle(vertices: &[DVec3]) -> Result<Double, SolidAngleError> {
+    let quick = match vertices {
+        [a, b, c] => triangle::angle(a, b, c),
+        _ => fan::unchecked(vertices).map(|fan| fan.angle()),
+    };
+    quick.map_or_else(|| careful_angle(vertices), Ok)
+}
+
+/// The same of a loop that may break a rule or need pruning.
+#[inline(never)]
+fn careful_angle(vertices: &[DVec3]) -> Result<Double, SolidAngleError> {
+    measured(vertices, |pruned| fan::fan(pruned).angle())
 }
 
 /// `measure` of the loop, checked and pruned.

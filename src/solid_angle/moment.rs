@@ -57,6 +57,9 @@ pub(super) fn vector_moment(vertices: &[DVec3]) -> DVec3 {
 ///
 /// It is off by `TOLERANCE` of its `size`, or as in `contour.rs`.
 pub(super) fn twice_moment(vertices: &[DVec3], size: impl Fn(&Vector) -> f64) -> (Vector, f64) {
+    if vertices.len() < 3 {
+        return (Vector::default(), 1.0);
+    }
     let Sum { moment, doubt } = dispatch::run(Loop(vertices));
     if doubt <= TOLERANCE * size(&moment) { (moment, 1.0) } else { contour::twice_moment(vertices) }
 }

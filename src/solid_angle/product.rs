@@ -45,14 +45,10 @@ impl Product {
     pub fn angle(&self) -> Double {
         let (re, im) = (self.re, self.im);
         if im.hi.abs() <= NOISE * self.swept * (re.hi.abs() + im.hi.abs()) {
-            return twice(argument(re, Double::default()));
+            return argument(re, Double::default()).twice();
         }
-        twice(argument(re, im))
+        argument(re, im).twice()
     }
-}
-
-fn twice(x: Double) -> Double {
-    Double { hi: 2.0 * x.hi, lo: 2.0 * x.lo }
 }
 
 /// The angle in [0, 4π) that differs from one in (−2π, 2π] by nothing or a whole sphere.

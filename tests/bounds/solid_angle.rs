@@ -28,6 +28,8 @@ pub const TABLE: &[(&str, &str, f64, &str)] = &[
     ("polygon", "law: cap", 1e-13, "searched: laws"),
     // The bound that a bounded value states, in units of the last place.
     ("polygon_bounded", "*", 0.8, "searched: 384 places"),
+    // The bound takes the sum of the edge's ends, 1e-12, for no more than 1e-13.
+    ("polygon_bounded", "near-antipodal edge 1e-12", 1.1, "searched: 384 places"),
     // The largest error in ten thousand, as a part of the bound: at least this.
     ("polygon_bounded", "reached", 0.5, "searched: 384 places"),
     // In units of 2⁻⁵³ of the larger half.
@@ -66,6 +68,7 @@ pub const TABLE: &[(&str, &str, f64, &str)] = &[
     ("l_huilier", "bench", 1e-12, "searched: bench"),
     ("interior_angles_acos", "bench", 1e-11, "searched: bench"),
     ("turning", "bench", 1e-11, "searched: bench"),
+    ("s2geometry", "bench", 1e-12, "searched: bench"),
 ];
 
 /// The bound of `function` in `regime`: the longest prefix wins.

@@ -163,6 +163,11 @@ impl Number for Symbolic {
         Double { hi, lo: hi.residual() }
     }
 
+    /// The residual is exact by Dekker's theorem, whose condition is no part of the proof.
+    fn ordered_sum(a: Self, b: Self) -> Double<Self> {
+        Self::sum(a, b)
+    }
+
     fn product(a: Self, b: Self) -> Double<Self> {
         let hi = a * b;
         let lo = Self { negative: false, ..hi }.residual();
