@@ -73,6 +73,7 @@ mod fan;
 pub mod fast;
 pub mod formula;
 mod geographic;
+mod half_turn;
 mod kernel;
 mod moment;
 mod product;

@@ -134,7 +134,7 @@ fn count_turns<T: Real>(turns: &mut [i64; 4], [old, factor, new]: [T::Four; 3], 
         let (o, f, n) = (below(old[i]), below(factor[i]), below(new[i]));
         turns[i] += (1 - f) * (1 - o) * n - f * o * (1 - n);
         let magnitude = larger(re[i].abs(), new[i].abs());
-        middle &= (magnitude >= FACTOR_FLOOR) & (magnitude <= 1.0 / FACTOR_FLOOR) & (new[i] != 0.0);
+        middle &= (FACTOR_FLOOR..=1.0 / FACTOR_FLOOR).contains(&magnitude) & (new[i] != 0.0);
     }
     middle
 }
