@@ -447,7 +447,7 @@ fn plane(m: f64, c: DVec3, (d, d_sum): (DVec3, f64), (e, e_sum): (DVec3, f64)) -
     let height = normal.dot(c);
     if height > SMALLEST_HEIGHT {
         let inverse = 1.0 / height;
-        let error = PLANE_ERROR * m * inverse * ((d_sum + e_sum) * m * 84.0 + 9.0 * (d_sum * e_sum));
+        let error = ROUNDOFF * m * inverse * ((d_sum + e_sum) * m * 84.0 + 9.0 * (d_sum * e_sum));
         (normal * inverse, error as f32)
     } else {
         (DVec3::ZERO, f32::INFINITY)
@@ -520,4 +520,4 @@ const DEEP: f64 = 1.0 / 16.0;
 const SMALLEST_HEIGHT: f64 = 1e-200;
 
 /// 2⁻⁵³, and a little for the error's own rounding.
-const PLANE_ERROR: f64 = 1.01 / 9_007_199_254_740_992.0;
+const ROUNDOFF: f64 = 1.01 / 9_007_199_254_740_992.0;
