@@ -193,3 +193,22 @@ fn what_is_no_normal_is_refused() {
         assert_eq!(measure(&edge, DVec3::Z), Err(SolidAngleError::AntipodalEdge { index: 0 }));
     }
 }
+
+#[test]
+fn what_touches_the_horizon_from_below_is_exactly_zero() {
+    let normal = DVec3::new(0.6, 0.8, 0.0);
+    let below = [DVec3::new(0.8, -0.6, 0.0), DVec3::Z, DVec3::new(-0.48, -0.64, 0.6)];
+    assert_eq!(projected_above_horizon(&below, normal).map(f64::to_bits), Ok(0));
+    for n in 3..40 {
+        let equator: Vec<DVec3> = (0..n)
+            .map(|i| {
+                let (sine, cosine) = (std::f64::consts::TAU * f64::from(i) / f64::from(n)).sin_cos();
+                DVec3::new(cosine, -sine, 0.0)
+            })
+            .collect();
+        let clockwise = projected_above_horizon(&equator, DVec3::Z);
+        assert_eq!(clockwise.map(f64::to_bits), Ok(0), "{n} vertices");
+        let other = projected_above_horizon(&equator, DVec3::NEG_Z);
+        assert_eq!(other, Ok(std::f64::consts::PI), "{n} vertices");
+    }
+}

@@ -124,3 +124,15 @@ fn what_is_no_query_is_refused() {
     assert_eq!(locator.nearest_from(1, 1e300 * DVec3::new(1.0, 0.0, 0.0)), Ok(0));
     assert_eq!(Locator::new(&sphere, &sites).unwrap().nearest(below), Ok(0));
 }
+
+/// Sites that differ from those of the diagram by less than what is noticed, in a circle of three.
+#[test]
+fn a_walk_among_sites_that_are_nearly_those_of_the_diagram_ends() {
+    let (s, t) = (2_f64.powi(-50), 3_f64.sqrt());
+    let x = 0.69 * s;
+    let (a, b, c) = (DVec3::X, DVec3::new(-0.6 * s * t, 1.0, 0.0), DVec3::new(-1.2 * s * t, 0.0, 1.0));
+    let diagram = voronoi::sphere(&[a, b, c]).unwrap();
+    let moved = [a + DVec3::new(0.0, -x, -x), b, c + DVec3::new(x, x, 0.0)];
+    let locator = Locator::new(&diagram, &moved).unwrap();
+    assert!(locator.nearest(DVec3::ONE).unwrap() < 3);
+}

@@ -183,7 +183,7 @@ impl Cache {
     }
 
     /// Takes back what the records promise for `position` on the surface with unit `normal`: none of them is used there again,
-    /// relaxed or not, but those whose radius is the smallest already.
+    /// relaxed or not, but those that reach it with the smallest radius.
     ///
     /// For callers that know better: a test found that interpolation is wrong there. Nothing changes where the position is not
     /// finite or the normal not a unit vector.
@@ -196,7 +196,8 @@ impl Cache {
             .collect();
         for index in used {
             let record = &mut self.records[index];
-            let reach = record.position.distance(position) / accuracy;
+            // A little less, for the rounding of what a lookup divides.
+            let reach = record.position.distance(position) / accuracy * (1.0 - 4.0 * f64::EPSILON);
             let radius = reach.clamp(self.validity.minimum().min(record.radius), record.radius);
             record.radius = radius;
             let place = record.position;

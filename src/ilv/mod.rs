@@ -1,9 +1,9 @@
 //! Indirect light vectors: the adaptive hemisphere sampler, the light vector and its interpolating cache.
 //!
 //! # Model
-//! At a surface point, an [`AdaptiveSampler`] divides the hemisphere into equal cells, shoots rays into each, lets a
-//! sequential probability ratio test say which cells are homogeneous, splits the others, and weighs every ray by the part
-//! of the hemisphere for which it stands, its spherical Voronoi cell. The result is one [`LightVector`]; a [`Cache`] of
+//! At a surface point, an [`AdaptiveSampler`] divides the hemisphere into cells, shoots rays into each, more where a pilot
+//! or a sequential test finds scatter, and weighs every ray by the part of the hemisphere for which it stands: a share of its cell,
+//! or its spherical Voronoi cell. The result is one [`LightVector`]; a [`Cache`] of
 //! light vectors is interpolated wherever it is valid.
 //!
 //! There is no scene in here: a [`RadianceSource`] answers a direction with a radiance.
@@ -40,7 +40,7 @@
 //! ```
 //!
 //! # Guarantees
-//! (1) In a constant field of radiance L, Voronoi moments give E = πL and Φ = πY n for every set of rays:
+//! (1) In a constant field of radiance L, cell and Voronoi moments give E = πL and Φ = πY n for every set of rays:
 //!     `tests/light_vector_laws.rs`.
 //! (2) n·Φ is the luminance of E, to within rounding: `tests/light_vector_laws.rs`.
 //! (3) A dark hemisphere is homogeneous, its light vector zero: `tests/light_vector_laws.rs`.
@@ -57,7 +57,7 @@
 //! (10) The sampler of the paper takes, ray by ray, the decisions that a plain replay takes: `tests/paper_replay.rs`.
 //!
 //! # Known
-//! Voronoi weights are exact in a constant field and lower the scatter in others, but they are biased: a cell reaches over
+//! Cell moments and Voronoi weights are exact in a constant field and lower the scatter in others, but Voronoi weights are biased: a cell reaches over
 //! to where its ray has not been. Deciding where to sample by the samples adds to it. [`Weights`] and `docs/ilv.md` have the figures;
 //! [`AdaptiveSampler::unbiased`] and [`lattice`](AdaptiveSampler::lattice) have no such bias.
 //!

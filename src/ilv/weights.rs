@@ -5,8 +5,14 @@ use alloc::vec::Vec;
 use glam::DVec3;
 
 use super::{
-    Cell, CellMap, Frame, LightVector, Ray, Workspace, fences::Fences, gradient, leaves::Leaves, luminance,
-    pilot::Scatter, sum::Sum,
+    Cell, CellMap, Frame, LightVector, Ray, Workspace,
+    fences::Fences,
+    gradient,
+    leaves::Leaves,
+    luminance,
+    patchwork::{Column, Patchwork},
+    pilot::Scatter,
+    sum::Sum,
 };
 use crate::voronoi::VoronoiError;
 
@@ -24,8 +30,9 @@ pub enum Weights {
     /// An equal share of the vector moment ∫ ω dω of the ray's cell, which is exact in a constant field. With a
     /// [`Pilot`](super::Pilot), whose rays count, the cells are those of its grid and of the grid that follows, each with its share.
     ///
-    /// Over cells of equal projected solid angle it is [`LeafMeasure`](Self::LeafMeasure). Over others it is biased, by what
-    /// the radiance varies together with the cosine across a cell.
+    /// Over cells of equal projected solid angle it is [`LeafMeasure`](Self::LeafMeasure) without a pilot. Over others every row of cells
+    /// keeps its projected solid angle, which its rays share by their own cosines: irradiances are biased by what is left, 0.3 % before
+    /// endless walls.
     CellMoment,
     /// The solid angle A of the ray's Voronoi cell: m = ω A. The paper's choice; in a constant field its irradiance is
     /// too large by about 1/n for n independent rays.
@@ -115,6 +122,9 @@ impl Weighing<'_> {
                 for (ray, moment) in own.iter_mut().zip(grid.moments()) {
                     ray.moment = self.frame.to_world(moment) * *share;
                 }
+                if grid.map() != CellMap::ProjectedSolidAngle {
+                    self.follow_the_cosine(grid, own);
+                }
             } else {
                 for (ray, (_, cell)) in own.iter_mut().zip(grid.cells()) {
                     ray.moment = at_direction(ray, cell.extent() * share, grid.map());
@@ -132,6 +142,32 @@ impl Weighing<'_> {
                     } else {
                         at_direction(ray, cell.extent() * share, cell.map())
                     };
+                }
+            }
+        }
+    }
+
+    /// Divides the projected solid angle of every row among its rays by their own cosines, not by those of their cells: they climb
+    /// through a row, so that the sum is that of the cells, nearly, and light near the horizon has no bias.
+    fn follow_the_cosine(&self, grid: &Patchwork, mut rays: &mut [Ray]) {
+        let normal = self.frame.normal();
+        for ring in &grid.rings {
+            let columns = &grid.columns[ring.columns.clone()];
+            for _ in ring.rows.clone() {
+                let (row, others) = core::mem::take(&mut rays).split_at_mut(columns.len());
+                rays = others;
+                let part = |(ray, column): (&Ray, &Column)| {
+                    let cos = normal.dot(ray.direction);
+                    cos / grid.map().density(cos) * (column.azimuth[1] - column.azimuth[0])
+                };
+                let whole: f64 = row.iter().map(|ray| normal.dot(ray.moment)).sum();
+                let parts: f64 = row.iter().zip(columns).map(part).sum();
+                if parts <= 0.0 {
+                    continue;
+                }
+                for (ray, column) in row.iter_mut().zip(columns) {
+                    let projected = part((&*ray, column)) * (whole / parts);
+                    ray.moment += normal * (projected - normal.dot(ray.moment));
                 }
             }
         }

@@ -109,7 +109,10 @@ impl Number for f64 {
     #[inline(always)]
     fn product(a: Self, b: Self) -> Double {
         let hi = a * b;
-        if FUSED || (hi.abs() < SPLIT_FLOOR && hi != 0.0) {
+        if hi == 0.0 {
+            return Double { hi, lo: 0.0 };
+        }
+        if FUSED || hi.abs() < SPLIT_FLOOR {
             return Double { hi, lo: a.mul_add(b, -hi) };
         }
         let ((ah, al), (bh, bl)) = (split(a), split(b));

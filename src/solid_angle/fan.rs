@@ -405,9 +405,13 @@ mod tests {
     #[cfg(target_arch = "x86_64")]
     #[test]
     fn both_copies_multiply_alike_down_to_the_smallest_doubles() {
-        for i in 0..4000_u32 {
+        // The first two halves' products may round up to a number where the product itself does not.
+        let vanishing = (5.700_151_044_183_039e-151, 4.333_794_301_287_642e-174);
+        let small = (0..4000_u32).map(|i| {
             let (a, b) = (1.0 / f64::from(2 * i + 3), 0.7 / f64::from(i + 1));
-            let b = b * 2_f64.powi(-960) * 2_f64.powi(-(i as i32 % 120));
+            (a, b * 2_f64.powi(-960) * 2_f64.powi(-(i as i32 % 120)))
+        });
+        for (a, b) in small.chain([vanishing]) {
             let (split, fused) =
                 (<f64 as Number>::product(a, b), Fused::product(Fused::constant(a), Fused::constant(b)));
             assert_eq!((split.hi, split.lo), (fused.hi.get(), fused.lo.get()), "{a:e} · {b:e}");
@@ -417,6 +421,9 @@ mod tests {
     #[cfg(target_arch = "x86_64")]
     #[test]
     fn both_copies_give_the_same_bits() {
+        if !has_registers() {
+            return;
+        }
         for vertices in loops() {
             let (split, fused) = (checked(&vertices).run::<f64>(), checked(&vertices).run::<Fused>());
             assert_eq!(format!("{split:?}"), format!("{fused:?}"), "{vertices:?}");
@@ -424,12 +431,10 @@ mod tests {
             // Who gives up gives nothing, and who does not gives the same.
             assert!(unchecked(&vertices).is_none_or(|quick| format!("{:?}", Some(quick)) == format!("{split:?}")));
             let [a, b, c] = &vertices[..] else { continue };
-            if has_registers() {
-                let (split, fused) = (Triangle(a, b, c).run::<f64>(), Triangle(a, b, c).run::<Fused>());
-                assert_eq!(format!("{split:?}"), format!("{fused:?}"), "{vertices:?}");
-                let whole = fan(&vertices).angle().value();
-                assert!(split.is_none_or(|quick| quick.value() == whole), "{vertices:?}: {split:?} against {whole:e}");
-            }
+            let (split, fused) = (Triangle(a, b, c).run::<f64>(), Triangle(a, b, c).run::<Fused>());
+            assert_eq!(format!("{split:?}"), format!("{fused:?}"), "{vertices:?}");
+            let whole = fan(&vertices).angle().value();
+            assert!(split.is_none_or(|quick| quick.value() == whole), "{vertices:?}: {split:?} against {whole:e}");
         }
     }
 

@@ -94,7 +94,7 @@ pub fn projected_solid_angle(vertices: &[DVec3], normal: DVec3) -> Result<f64, S
 ///
 /// # Shapes
 ///
-/// As for [`projected_solid_angle`]; the result is in [0, π] for a loop that does not cross itself, which may surround the
+/// As for [`projected_solid_angle`]; the result is in [0, π] to within its accuracy for a loop that does not cross itself, which may surround the
 /// horizon, the zenith or the nadir. Otherwise the parts count as often as they are wound around, the constant being that
 /// of [`polygon`](super::polygon).
 ///
@@ -180,18 +180,20 @@ impl Normal {
         let heights: Vec<_> = pruned.iter().map(|&v| self.height(v)).collect();
         let whole = self.nadir(pruned);
         let above = |i: usize| heights[i % pruned.len()].hi >= 0.0;
-        let (integral, turns) = if (0..pruned.len()).all(above) {
-            (self.projected(pruned, whole), 0.0)
-        } else if let Some(start) = (0..pruned.len()).find(|&i| above(i) && !above(i + 1)) {
-            self.clipped(pruned, &heights, start)
-        } else {
+        let (integral, turns) = if heights.iter().all(|height| height.hi <= 0.0) {
             (Double::default(), self.turns_below(pruned))
+        } else if (0..pruned.len()).all(above) {
+            (self.projected(pruned, whole), 0.0)
+        } else {
+            // Some vertex is above and some below.
+            let start = (0..pruned.len()).find(|&i| above(i) && !above(i + 1)).unwrap_or_default();
+            self.clipped(pruned, &heights, start)
         };
         // Half a sphere's moment for every turn.
         (integral + FOUR_PI.times(0.25) * (turns + whole)).value()
     }
 
-    /// How often a loop below the horizon turns about the nadir.
+    /// How often a loop that is not above the horizon turns about the nadir.
     fn turns_below(&self, pruned: &[DVec3]) -> f64 {
         let nadir = |v: &&DVec3| exact::antipodal(self.n.to_array(), v.to_array());
         let rim: Vec<_> = pruned.iter().filter(|v| !nadir(v)).collect();

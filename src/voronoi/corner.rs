@@ -28,8 +28,8 @@ const SHARP: f64 = 0.25;
 /// Nor facets of shorter edges than 2⁻²⁰: offsets of sites are right to 2⁻⁷⁶.
 const SHORT: f64 = 1.0 / (1u64 << 20) as f64;
 
-/// Nor those whose circle has a larger sine: cosines from 0.6.
-const WIDE: f64 = 0.8;
+/// Nor those whose circle has a larger sine.
+const WIDE: f64 = 0.7;
 
 /// Corners nearer to the horizon are not certain: normals are right to 2⁻⁴⁹ of the product of the two edges.
 const NEAR_HORIZON: f64 = 1.0 / (1u64 << 44) as f64;

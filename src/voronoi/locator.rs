@@ -116,7 +116,8 @@ impl<'a> Locator<'a> {
         Ok(locator)
     }
 
-    /// Index of the site nearest to `direction`, of several the lowest; its cell is not empty.
+    /// Index of the nearest to `direction` of the sites that have a cell, of several the lowest; below the horizon, by up to 2⁻⁵⁰,
+    /// to within that.
     ///
     /// # Shapes
     ///
@@ -218,11 +219,11 @@ impl<'a> Locator<'a> {
         }
     }
 
-    /// The nearest site, of several the lowest; every step is to a nearer site, so that the walk ends.
+    /// The nearest site, of several the lowest; every step but the first ones in doubles is to a nearer site, exactly, so that
+    /// the walk ends.
     fn settle(&self, query: &Ray, start: u32) -> usize {
-        let mut site = start;
+        let mut site = self.descend(query.unit, start);
         loop {
-            site = self.descend(query.unit, site);
             match self.close(query, site).find(|&neighbor| self.order(query, neighbor, site) == Order::Nearer) {
                 Some(nearer) => site = nearer,
                 None => return self.lowest(query, site) as usize,

@@ -3,6 +3,8 @@
 //! The user has `bound` of tests/bounds/voronoi.rs, and the modules `cells` and `circles` of tests/oracles.
 #![allow(dead_code, reason = "each user takes a part of it")]
 
+use std::f64::consts::TAU;
+
 use num_bigint::Sign;
 use steradian::glam::DVec3;
 use steradian::voronoi::{self, Diagram};
@@ -100,8 +102,12 @@ pub fn slow(sites: &[DVec3], pole: Option<DVec3>) {
     }
 }
 
-/// Perimeter of a cell, if need be too large by the rounding of its corners.
+/// Perimeter of a cell, if need be too large by the rounding of its corners; of a cell that is empty the largest there is, since
+/// the slow cells may see one there that is as long.
 fn perimeter(corners: &[DVec3]) -> f64 {
+    if corners.is_empty() {
+        return TAU;
+    }
     let ends = corners.iter().skip(1).chain(corners.first());
     corners.iter().zip(ends).map(|(start, end)| start.distance(*end) + f64::EPSILON).sum()
 }

@@ -50,7 +50,8 @@ impl PlainCache {
             .collect();
         for index in used {
             let (at, _, before, _) = self.records[index];
-            let radius = (at.distance(position) / accuracy).clamp(self.rule.minimum().min(before), before);
+            let radius = (at.distance(position) / accuracy * (1.0 - 4.0 * f64::EPSILON))
+                .clamp(self.rule.minimum().min(before), before);
             self.records[index].2 = radius;
             self.limit(at, radius);
         }

@@ -11,7 +11,8 @@ use super::super::double::{Double, Four, Number, Real, exact_sum};
 
 /// A double whose products leave their low half to one fused multiply-add.
 ///
-/// Fast in a function that enables the feature; elsewhere `mul_add` is a call of the library, slow and just as exact.
+/// Fast in a function that enables the feature; elsewhere `mul_add` is a call of the library, slow and just as exact. Four of them
+/// are instructions that the processor must have.
 #[derive(Clone, Copy, Debug)]
 pub(in super::super) struct Fused(f64);
 
