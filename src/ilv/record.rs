@@ -43,6 +43,7 @@ pub(super) fn is_sound(vector: &LightVector, normal: DVec3) -> bool {
     // Subnormal numbers round as coarsely as they like.
     let slack = 1e-6 * (vector.vector_irradiance.length() + vector.luminance().abs()) + f64::MIN_POSITIVE;
     is_bounded(vector.irradiance)
+        && vector.irradiance.min_element() >= -slack
         && is_bounded(vector.vector_irradiance)
         && (power - vector.luminance()).abs() <= slack
         && vector.translation_gradient.iter().all(|gradient| gradient.is_finite())

@@ -56,8 +56,7 @@ impl LightVector {
     /// # Accuracy
     /// On independent rays its square is unbiased. Elsewhere it is mostly on the safe side, for even rays err less than the scatter
     /// within cells tells, but not where a pilot missed a small source: of one of a hundredth of the hemisphere `default` states 6 % and
-    /// errs by 18 %. A pilot with [`LeafMeasure`](super::Weights::LeafMeasure) over cells that are not projected ones does not see the scatter
-    /// of the cosine. Its root mean square stated over scatter of gathers, under a smooth sky with a window / in three scenes:
+    /// errs by 18 %. Root mean square stated over scatter of gathers, under a smooth sky with a window / in three scenes:
     ///
     /// | sampler | ratio |
     /// |---|---|

@@ -214,10 +214,7 @@ impl Weighing<'_> {
         let normal = self.frame.normal();
         let y = |ray: u32| luminance(rays[ray as usize].radiance);
         let w = |ray: u32| normal.dot(rays[ray as usize].moment);
-        // A Voronoi weight varies with the rays but adds up over the leaf: only the radiances scatter. Over cells of
-        // equal solid angle, an equal share scatters together with the cosine.
-        let cosine_scatters =
-            self.weights.shares_measures() && self.leaves.cells[0].map() != CellMap::ProjectedSolidAngle;
+        let cosine_scatters = self.cosine_scatters();
         let of_leaf = |(cell, members): (&Cell, &[u32])| {
             let n = members.len() as f64;
             let measure =
@@ -247,16 +244,31 @@ impl Weighing<'_> {
         if self.in_step { variance * IN_STEP } else { variance }
     }
 
+    /// Whether the weights scatter as the cosine does: an equal share over cells that are not of equal projected solid angle. A
+    /// Voronoi weight varies with the rays but adds up over the leaf: only the radiances scatter.
+    fn cosine_scatters(&self) -> bool {
+        self.weights.shares_measures() && self.leaves.cells[0].map() != CellMap::ProjectedSolidAngle
+    }
+
     /// Patch by patch, as a [`Pilot`](super::Pilot) puts it.
     fn variance_of_patches(&self, rays: &[Ray]) -> f64 {
-        let grids = &self.leaves.grids;
+        let (grids, normal) = (&self.leaves.grids, self.frame.normal());
         let (first, share) = (grids[0].0.len(), grids[0].1);
         let of_patch = |(cell, members): (&Cell, &[u32])| {
             let early = members.partition_point(|&ray| (ray as usize) < first);
             let counted = if share > 0.0 { members } else { &members[early..] };
-            let values = counted.iter().map(|&ray| luminance(rays[ray as usize].radiance));
+            let y = |&ray: &u32| luminance(rays[ray as usize].radiance);
             let shares = [(share, early as f64), (1.0 - share, (members.len() - early) as f64)];
-            Scatter::of(cell.projected_solid_angle(), values).error(shares)
+            let scatter = if self.cosine_scatters() {
+                let weighed = |ray: &u32| {
+                    let cos = normal.dot(rays[*ray as usize].direction);
+                    y(ray) * cos / cell.map().density(cos)
+                };
+                Scatter::of(cell.extent(), counted.iter().map(weighed))
+            } else {
+                Scatter::of(cell.projected_solid_angle(), counted.iter().map(y))
+            };
+            scatter.error(shares)
         };
         self.leaves.cells.iter().zip(self.leaves.members()).map(of_patch).sum()
     }
