@@ -78,7 +78,7 @@ fuzz_target!(|input: Input| {
         }
     };
     assert!(acceptable, "{vertices:?}");
-    assert_eq!(solid_angle::signed_polygon(&vertices), Ok(bounded.value));
+    assert_eq!(solid_angle::signed_polygon(&vertices), Ok(bounded.value), "{vertices:?}");
     let projections = solid_angle::projected_solid_angle(&vertices, normal)
         .and_then(|whole| Ok((whole, solid_angle::projected_above_horizon(&vertices, normal)?)));
     assert_eq!(projections.is_ok(), is_unit(normal), "{normal}");
@@ -113,8 +113,8 @@ fuzz_target!(|input: Input| {
     for (got, want) in [(whole, spherical::projected(&exact, &n)), (above, spherical::projected_above(&exact, &n))] {
         let nearest = want.value().abs();
         let limit =
-            PROJECTED_BOUND * (f64::from_bits(nearest.to_bits() + 1) - nearest) + MOMENT_FLOOR * (square + 1.0 / short);
+            PROJECTED_BOUND * (f64::from_bits(nearest.to_bits() + 1) - nearest) + MOMENT_FLOOR * (square + 8.0 / short);
         let error = (&Fixed::from(got) - &want).abs().value();
-        assert!(error <= limit, "{normal} {vertices:?}: {got:e} against {:e}", want.value());
+        assert!(error <= limit, "{normal} {vertices:?}: {got:e} against {:e}, {error:e} off", want.value());
     }
 });

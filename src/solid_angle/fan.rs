@@ -73,7 +73,9 @@ pub(super) struct Fan {
 impl Fan {
     /// The fan with the argument of its product.
     #[inline(always)]
-    pub fn finished<T: Real>(mut self, Complex { re, mut im }: Complex<T>) -> Self {
+    pub fn finished<T: Real>(mut self, product: Complex<T>) -> Self {
+        // A single factor may be so small that its inverse is infinite.
+        let Complex { re, mut im } = scaled(product);
         let (x, y) = (re.hi.get().abs(), im.hi.get().abs());
         if y <= NOISE * self.swept * (x + y) {
             // From just above −π to π.
@@ -435,6 +437,17 @@ mod tests {
             assert_eq!(format!("{split:?}"), format!("{fused:?}"), "{vertices:?}");
             let whole = fan(&vertices).angle().value();
             assert!(split.is_none_or(|quick| quick.value() == whole), "{vertices:?}: {split:?} against {whole:e}");
+        }
+    }
+
+    #[test]
+    fn an_edge_that_is_a_half_turn_but_for_the_smallest_doubles_is_measured() {
+        let almost = DVec3::new(-1.000_000_000_000_017, -3.8e-322, -3.8e-322);
+        let loops = [[DVec3::X, almost, DVec3::Y], [DVec3::X, almost, DVec3::new(0.6, -0.8, 0.0)]];
+        for [a, b, c] in loops {
+            let angle = super::super::signed_polygon(&[a, b, c]).unwrap();
+            assert!(angle.is_finite() && angle.abs() <= 2.0 * PI, "{angle}");
+            assert_eq!(super::super::triangle(a, b, c), Ok(angle));
         }
     }
 

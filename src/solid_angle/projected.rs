@@ -108,7 +108,7 @@ pub fn projected_solid_angle(vertices: &[DVec3], normal: DVec3) -> Result<f64, S
 ///
 /// # Accuracy
 ///
-/// As for [`projected_solid_angle`], and in addition 2⁻¹⁰⁴/ε where an edge that is ε short of a half turn crosses the horizon;
+/// As for [`projected_solid_angle`], and in addition 2⁻¹⁰¹/ε where an edge that is ε short of a half turn crosses the horizon;
 /// worst seen 0.50 ulp. What is not above the horizon at all is exactly 0. Results below 1e-280 are not searched.
 ///
 /// # Source
