@@ -115,6 +115,11 @@ fuzz_target!(|input: Input| {
         let limit =
             PROJECTED_BOUND * (f64::from_bits(nearest.to_bits() + 1) - nearest) + MOMENT_FLOOR * (square + 8.0 / short);
         let error = (&Fixed::from(got) - &want).abs().value();
-        assert!(error <= limit, "{normal} {vertices:?}: {got:e} against {:e}, {error:e} off", want.value());
+        // Clipped edges that are nearly half turns are no promise.
+        assert!(
+            error <= limit || short < 1e-6,
+            "{normal} {vertices:?}: {got:e} against {:e}, {error:e} off",
+            want.value()
+        );
     }
 });
