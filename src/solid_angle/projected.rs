@@ -110,7 +110,7 @@ pub fn projected_solid_angle(vertices: &[DVec3], normal: DVec3) -> Result<f64, S
 ///
 /// As for [`projected_solid_angle`], and in addition 2⁻¹⁰¹/ε where an edge that is ε short of a half turn crosses the horizon;
 /// worst seen 0.50 ulp. With edges less than 1e-6 short of a half turn there is no bound: an error of 5e-7 was seen at 1e-13.
-/// What is not above the horizon at all is exactly 0. Results below 1e-280 are not searched.
+/// What is not above the horizon at all is exactly 0. Components below 1e-150 count as 0.
 ///
 /// # Source
 ///
@@ -134,8 +134,14 @@ pub fn projected_solid_angle(vertices: &[DVec3], normal: DVec3) -> Result<f64, S
 /// ```
 pub fn projected_above_horizon(vertices: &[DVec3], normal: DVec3) -> Result<f64, SolidAngleError> {
     let along = Normal::new(normal)?;
-    measured(vertices, |pruned| along.above(pruned))
+    // Products of smaller components vanish, and with them the direction of an edge that is nearly a half turn.
+    let clear = |x: f64| if x.abs() < SMALLEST { 0.0 } else { x };
+    let vertices: Vec<DVec3> = vertices.iter().map(|v| DVec3::new(clear(v.x), clear(v.y), clear(v.z))).collect();
+    measured(&vertices, |pruned| along.above(pruned))
 }
+
+/// Components below this are taken for 0 where loops are clipped.
+const SMALLEST: f64 = 1e-150;
 
 /// The normal of a surface.
 struct Normal {
