@@ -1,13 +1,12 @@
-//! The decisions that build a hull: which side of a facet, which of two sites is nearer, what comes next on a circle.
+//! The decisions that build a hull: which side of a facet, and which of two sites is nearer.
 //!
 //! # Guarantees
-//! All are exact: doubles or twofold numbers with a bound of their error, then integers.
-
-use core::cmp::Ordering;
+//! All are exact. Where the plane of a facet cannot tell (`insertion`), three stages decide on which side a site is:
+//! differences of unit vectors in doubles, `in_circle_of_sites`; the same in twofold numbers, `in_circle`; integers.
 
 use glam::DVec3;
 
-use super::predicate::{AXES, Plane, in_circle_by_integers, nearer_by_integers, orientation};
+use super::predicate::{Plane, in_circle_by_integers, nearer_by_integers, orientation};
 use super::ray::Ray;
 use super::sites::Sites;
 use super::twofold::Twofold3;
@@ -17,7 +16,7 @@ use super::twofold::Twofold3;
 const DIFFERENCES: f64 = 1.0 / (1u128 << 92) as f64;
 
 /// Below this, products may have underflowed.
-const SMALLEST: f64 = 1e-200;
+pub(super) const SMALLEST: f64 = 1e-200;
 
 /// Sign of det(b − a, c − a, q − a) for the unit vectors of four distinct rays: 1 if q is beyond the plane through a, b, c
 /// seen counter-clockwise.
@@ -75,46 +74,3 @@ pub(super) fn nearer(q: &Ray, a: &Ray, b: &Ray) -> bool {
 
 /// 8 u.
 const NEARER: f64 = 8.0 / 9_007_199_254_740_992.0;
-
-/// The order of rays on one circle, from one of them all around.
-pub(super) struct Turn<'a> {
-    origin: &'a Ray,
-    axis: &'static Ray,
-    positive: i32,
-}
-
-impl<'a> Turn<'a> {
-    /// Three distinct rays give the circle and the direction.
-    pub fn new(origin: &'a Ray, second: &Ray, third: &Ray) -> Self {
-        let normal = second.offset(origin).cross(third.offset(origin)).abs();
-        let mut axes = [(normal.x, &AXES[0]), (normal.y, &AXES[1]), (normal.z, &AXES[2])];
-        axes.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let signed = axes.map(|(_, axis)| (axis, side(origin, second, third, axis)));
-        let &(axis, positive) = signed.iter().find(|&&(_, sign)| sign != 0).unwrap_or(&signed[0]);
-        Self { origin, axis, positive }
-    }
-
-    /// The order of two rays other than the origin; equal only where they are the same direction.
-    pub fn compare(&self, p: &Ray, q: &Ray) -> Ordering {
-        0.cmp(&(self.positive * side(self.origin, p, q, self.axis)))
-    }
-}
-
-/// Sign of the component along `axis` of (p − o) × (q − o).
-fn side(o: &Ray, p: &Ray, q: &Ray, axis: &Ray) -> i32 {
-    let (d, e) = (p.offset(o), q.offset(o));
-    let estimate = d.cross(e).dot(axis.exact);
-    let size = |v: DVec3| v.abs().max_element();
-    // Offsets are right to 3 u, the product to 3 u more, of two terms.
-    let bound = TURN * size(d) * size(e);
-    if bound > SMALLEST && size(d).min(size(e)) > SMALLEST_OFFSET && estimate.abs() > bound {
-        return if estimate > 0.0 { 1 } else { -1 };
-    }
-    orientation(o, Plane::Bisector(p), Plane::Bisector(q), Plane::Normal(axis))
-}
-
-/// 24 u.
-const TURN: f64 = 24.0 / 9_007_199_254_740_992.0;
-
-/// 2⁻⁴⁰: beyond, the error of the rests, 2⁻⁹⁹, is below 2⁻⁵⁹ of an offset.
-const SMALLEST_OFFSET: f64 = 1.0 / (1u64 << 40) as f64;

@@ -77,6 +77,7 @@ mod error;
 mod exact;
 mod hull;
 mod incircle;
+mod insertion;
 mod locator;
 mod measure;
 mod order;
@@ -85,8 +86,10 @@ mod outlines;
 mod pending;
 mod predicate;
 mod ray;
+mod ring;
 mod shared;
 mod sites;
+mod start;
 mod twofold;
 mod validate;
 
