@@ -12,7 +12,7 @@ use super::clip::{Cell, View};
 use super::corner::{self, ABOVE, BELOW, Class, SET, SPECIAL};
 use super::diagram::{Diagram, NO_VERTEX, Record};
 use super::hull::{Facet, Hull, Shape};
-use super::measure::{Corner, is_thin, measure};
+use super::measure::{Measure, is_thin};
 use super::ordinary::{Side, Sum};
 use super::pending::Pending;
 use super::predicate::orientation;
@@ -35,7 +35,7 @@ pub(super) struct Outlines {
     ids: Vec<u32>,
     rays: Vec<Ray>,
     cell: Cell,
-    corners: Vec<Corner>,
+    measure: Measure,
 }
 
 /// An edge of a cell that is cut.
@@ -305,7 +305,7 @@ impl Outlines {
 
     /// Adds the cell of `site` with the edges `around`.
     fn add_cut_cell(&mut self, site: u32, walk: &mut Walk<'_>) {
-        let Self { around, ids, rays, cell, corners, shared, .. } = self;
+        let Self { around, ids, rays, cell, measure, shared, .. } = self;
         ids.clear();
         ids.extend(0..around.len() as u32);
         rays.clear();
@@ -316,7 +316,7 @@ impl Outlines {
             None => cell.set_outline(&view, ids),
             Some(_) => cell.cut_with_horizon(&view, ids),
         }
-        let (solid_angle, vector_moment) = measure(&view, cell, corners);
+        let (solid_angle, vector_moment) = measure.measure(&view, cell);
         let start = walk.diagram.neighbors.len();
         if !cell.empty {
             let mut before = cell.edges.last().map_or(HORIZON, |edge| edge.id);
@@ -329,7 +329,7 @@ impl Outlines {
                     before != HORIZON && at != HORIZON
                         || walk.is_special(facet) && view.meet_on_horizon(from, around.len())
                 };
-                let vertex = match (corners.get(k), facet.filter(at_facet)) {
+                let vertex = match (measure.corners.get(k), facet.filter(at_facet)) {
                     (None, _) => NO_VERTEX,
                     (Some(corner), Some(facet)) => walk.set_vertex(facet, corner.unit),
                     (Some(corner), None) => {

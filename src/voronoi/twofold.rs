@@ -173,9 +173,14 @@ impl Twofold3 {
 
     /// The unit vector of this direction; a vector of any size but zero.
     pub fn unit(self) -> Self {
-        let factor = power_towards_one(self.hi());
-        let near_one = Self::from_sum(times_power(self.hi(), factor), times_power(self.lo(), factor));
+        let near_one = self.towards_one();
         near_one.scale(near_one.dot(near_one).inverse_square_root())
+    }
+
+    /// The vector times a power of two, so that its largest component is in [1, 2).
+    pub fn towards_one(self) -> Self {
+        let factor = -exponent(self.hi());
+        Self::from_sum(times_power(self.hi(), factor), times_power(self.lo(), factor))
     }
 }
 
@@ -184,11 +189,6 @@ pub(super) fn exponent(v: DVec3) -> i32 {
     let largest = v.abs().max_element();
     let biased = (largest.to_bits() >> 52) as i32;
     if biased == 0 { (largest * 2f64.powi(200)).to_bits().wrapping_shr(52) as i32 - 1223 } else { biased - 1023 }
-}
-
-/// Exponent that brings the largest component of `v` into [1, 2).
-fn power_towards_one(v: DVec3) -> i32 {
-    -exponent(v)
 }
 
 /// 2ᵉ v: exact, unless a component falls below 2⁻¹⁰²² (it is then rounded once).
