@@ -167,10 +167,12 @@ impl Measure {
         for (k, normal) in normals.iter().enumerate().filter(|&(k, _)| k != longest) {
             let (start, stop) = (&corners[k], end(k));
             let (chord, sum) = (stop.minus(start), start.unit + stop.unit);
-            let middle = (chord.cross(normal.hi()) + sum).normalize();
-            let numerator = 0.5 * apex.dot(*normal).hi * chord.length();
+            let (two_sines, two_cosines) = (chord.length(), sum.length());
+            // The middle as above: the two summands are parallel.
+            let middle = (chord.cross(normal.hi()) + sum) / (two_sines + two_cosines);
+            let numerator = 0.5 * apex.dot(*normal).hi * two_sines;
             let apex = apex.hi();
-            let both = 1.0 + 0.5 * sum.length() + apex.dot(middle);
+            let both = 1.0 + 0.5 * two_cosines + apex.dot(middle);
             for corner in [start, stop] {
                 let denominator = both + apex.dot(corner.unit);
                 if denominator < NEAR {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::twofold::{Twofold3, exponent, length_defect, ordered_sum3, product3, times_power};
+use super::twofold::{Twofold3, exponent, nearly_unit, product3, times_power};
 
 /// Power of two at which products of components neither overflow nor underflow.
 const ROOM: i32 = 500;
@@ -78,7 +78,7 @@ const FAR: f64 = 1.0 - 1.0 / 32.0;
 
 /// The unit vector along `v` as a sum of two, for largest components from 1 to 2.
 ///
-/// With t + r = v y exactly, y near 1/|v|, and E = |t + r|² − 1, of some 2⁻⁵¹: (t + r)(1 − E/2 + 3E²/8).
+/// With t + r = v y exactly, y near 1/|v|.
 #[inline]
 fn unit_vector(v: DVec3) -> (DVec3, DVec3) {
     let square = v.length_squared();
@@ -90,8 +90,7 @@ fn unit_vector(v: DVec3) -> (DVec3, DVec3) {
     } else {
         product3(v, 1.0 / square.sqrt())
     };
-    let excess = length_defect(t) + 2.0 * t.dot(r);
-    ordered_sum3(t, r - t * (0.5 * excess - 0.375 * excess * excess))
+    nearly_unit(t, r)
 }
 
 /// 2⁻⁴⁹: a few units in the last place of 4.
