@@ -19,6 +19,9 @@ use super::{HORIZON, twofold::Twofold3};
 /// Planes whose normals' sine is above the root of this are two planes.
 const SMALLEST_SQUARE: f64 = 1.0 / 1024.0;
 
+/// Corners of smaller sine than this are uncertain by 2⁻⁵⁰ even in twofold numbers of 2⁻⁹⁵.
+const UNCERTAIN: f64 = 1.0 / (1u64 << 45) as f64;
+
 /// From π/2 to below 2⁻⁵³.
 const BISECTIONS: usize = 54;
 
@@ -49,30 +52,31 @@ impl<'a> View<'a> {
         orientation(self.site, self.plane(a), self.plane(b), self.plane(c))
     }
 
-    /// The corner at the start of `edge`, to more than double precision, with the sine as its length.
+    /// A vector along the corner of two edges for which their normals are too close to each other: `normal` is the first
+    /// one, and `corner` their cross product.
     ///
     /// For bisectors of the site i with j and k, u_i − u_k may be replaced by u_j − u_k, which makes a better angle when
     /// j and k are close to each other.
-    ///
-    /// `normals` are those of the two edges.
-    pub fn sharp_corner(&self, before: u32, at: u32, normals: [Twofold3; 2]) -> Twofold3 {
-        let (a, b) = (self.plane(before), self.plane(at));
-        let [normal, second] = normals;
-        let corner = normal.cross(second);
-        if let (Plane::Bisector(j), Plane::Bisector(k)) = (a, b) {
+    #[cold]
+    pub fn sharp_corner(&self, before: u32, at: u32, normal: Twofold3, corner: Twofold3) -> Twofold3 {
+        if let (Plane::Bisector(j), Plane::Bisector(k)) = (self.plane(before), self.plane(at)) {
             let other = normal.cross(j.bisector(k));
-            if other.hi().length_squared() > corner.hi().length_squared() {
+            let square = other.hi().length_squared();
+            if square > corner.hi().length_squared() && square > UNCERTAIN * UNCERTAIN {
                 return other;
             }
         }
-        corner
+        if corner.hi().length_squared() > UNCERTAIN * UNCERTAIN {
+            return corner;
+        }
+        Twofold3::from_sum(self.corner_by_sides(before, at), DVec3::ZERO)
     }
 
     /// The corner of planes that are almost the same one, as a unit vector: by bisection, with exact sides.
     ///
     /// For vectors s, t of the plane, both unit and at most a right angle from the corner, on either side of it, the
     /// side of their middle turned by a right angle towards t tells in which half of the angle the corner is.
-    pub fn corner_by_sides(&self, before: u32, at: u32) -> DVec3 {
+    fn corner_by_sides(&self, before: u32, at: u32) -> DVec3 {
         let (a, b) = (self.plane(before), self.plane(at));
         let side = |v: DVec3| orientation(self.site, a, b, Plane::Normal(&Ray::new(v)));
         let normal = b.twofold(self.site).hi();

@@ -39,11 +39,17 @@ pub const PLANE_ERROR: f64 = 4e-28;
 /// Corners of smaller sine than this, and corners of cells narrower than `NARROW`, are computed in twofold numbers.
 const SHARP: f64 = 0.25;
 
-/// Corners of smaller sine than this are uncertain by 2⁻⁵⁰ even in twofold numbers of 2⁻⁹⁵.
-const BLUNT: f64 = 1.0 / (1u64 << 45) as f64;
+/// Corners of larger sine are on their planes as they come from a cross product of twofold numbers.
+const SURE: f64 = 1.0 / 64.0;
+
+/// Corners of smaller sine than this are uncertain by 2⁻⁵⁵ even in twofold numbers of 2⁻⁹⁵.
+const BLUNT: f64 = 1.0 / (1u64 << 40) as f64;
 
 /// A cell narrower than this needs more than doubles in the differences of its corners.
 const NARROW: f64 = 1.0 / 64.0;
+
+/// A fan keeps its relative accuracy with denominators from here on.
+const NEAR: f64 = 0.5;
 
 /// A corner: the unit vector `unit + rest`.
 #[derive(Clone, Copy, Debug)]
@@ -62,33 +68,121 @@ impl Corner {
     }
 }
 
-/// Computes the `corners` of `cell` and returns its solid angle and vector moment.
-pub(super) fn measure(view: &View<'_>, cell: &Cell, corners: &mut Vec<Corner>) -> (f64, DVec3) {
-    corners.clear();
-    match *cell.edges.as_slice() {
-        _ if cell.empty => (0.0, DVec3::ZERO),
-        [] => (4.0 * PI, DVec3::ZERO),
-        [edge] => (2.0 * PI, PI * edge.normal),
-        [first, second] => {
-            let corner = twofold_corner(view, first.id, second.id);
-            corners.push(Corner { unit: -corner.unit, rest: -corner.rest });
-            corners.push(corner);
-            let [a, b] = [first.id, second.id].map(|id| view.plane(id).twofold(view.site));
-            let angle = atan2(a.cross(b).hi().length(), -a.dot(b).hi);
-            (2.0 * angle, 0.5 * PI * a.add(b).hi())
-        }
-        _ => {
-            set_corners(view, &cell.edges, corners);
-            let first = corners[0];
-            let near = corners.iter().all(|corner| corner.unit.dot(first.unit) > 0.5);
-            let mut solid_angle = if near { fan_solid_angle(corners) } else { girard_solid_angle(&cell.edges) };
-            if is_thin(solid_angle, width_squared(corners)) {
-                set_twofold_corners(view, &cell.edges, corners);
-                solid_angle = twofold_solid_angle(view, &cell.edges, corners);
+/// What measuring works with, to be used again, and the corners of the cell.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Measure {
+    pub corners: Vec<Corner>,
+    /// Of the edges, to twice the precision; none if doubles are enough.
+    normals: Vec<Twofold3>,
+}
+
+impl Measure {
+    /// Computes the corners of `cell` and returns its solid angle and vector moment.
+    pub fn measure(&mut self, view: &View<'_>, cell: &Cell) -> (f64, DVec3) {
+        self.corners.clear();
+        self.normals.clear();
+        match *cell.edges.as_slice() {
+            _ if cell.empty => (0.0, DVec3::ZERO),
+            [] => (4.0 * PI, DVec3::ZERO),
+            [edge] => (2.0 * PI, PI * edge.normal),
+            [first, second] => {
+                let [a, b] = [first, second].map(|edge| view.plane(edge.id).twofold(view.site));
+                let corner = twofold_corner(view, first.id, second.id, [a, b]);
+                self.corners.push(Corner { unit: -corner.unit, rest: -corner.rest });
+                self.corners.push(corner);
+                let angle = atan2(a.cross(b).hi().length(), -a.dot(b).hi);
+                (2.0 * angle, 0.5 * PI * a.add(b).hi())
             }
-            let moment = if near { fan_vector_moment(corners) } else { edge_vector_moment(&cell.edges, corners) };
-            (solid_angle, moment)
+            _ => self.measure_polygon(view, &cell.edges),
         }
+    }
+
+    fn measure_polygon(&mut self, view: &View<'_>, edges: &[Edge]) -> (f64, DVec3) {
+        self.set_corners(view, edges);
+        let first = self.corners[0];
+        if self.corners.iter().all(|corner| corner.unit.dot(first.unit) > 0.5) {
+            let mut solid_angle = fan_solid_angle(&self.corners);
+            if is_thin(solid_angle, width_squared(&self.corners)) {
+                self.set_twofold_corners(view, edges);
+                solid_angle = self.twofold_solid_angle().unwrap_or(solid_angle);
+            }
+            return (solid_angle, fan_vector_moment(&self.corners));
+        }
+        let solid_angle = self.twofold_solid_angle().unwrap_or_else(|| {
+            let solid_angle = girard_solid_angle(edges);
+            if !is_thin(solid_angle, width_squared(&self.corners)) {
+                return solid_angle;
+            }
+            self.set_twofold_corners(view, edges);
+            self.twofold_solid_angle().unwrap_or(solid_angle)
+        });
+        (solid_angle, edge_vector_moment(edges, &self.corners))
+    }
+
+    /// Sets the corners: in doubles, if these are good enough for all.
+    fn set_corners(&mut self, view: &View<'_>, edges: &[Edge]) {
+        let mut before = edges[edges.len() - 1].id;
+        for edge in edges {
+            let Some(corner) = double_corner(view, before, edge) else { break };
+            self.corners.push(corner);
+            before = edge.id;
+        }
+        if self.corners.len() < edges.len() || width_squared(&self.corners) < NARROW * NARROW {
+            self.set_twofold_corners(view, edges);
+        }
+    }
+
+    fn set_twofold_corners(&mut self, view: &View<'_>, edges: &[Edge]) {
+        if !self.normals.is_empty() {
+            return;
+        }
+        self.normals.extend(edges.iter().map(|edge| view.plane(edge.id).twofold(view.site)));
+        self.corners.clear();
+        let mut before = edges.len() - 1;
+        for (k, edge) in edges.iter().enumerate() {
+            let normals = [before, k].map(|k| self.normals[k]);
+            self.corners.push(twofold_corner(view, edges[before].id, edge.id, normals));
+            before = k;
+        }
+    }
+
+    /// The fan from the middle of the longest edge to the halves of all edges, if there are twofold corners and the cell is
+    /// near: a thin one is within little more than a right angle from there.
+    ///
+    /// With a the apex, c, c′ the ends of an edge of unit normal n and length θ, m its middle:
+    /// tan(A/2) = a·n sin(θ/2) / (1 + a·c + cos(θ/2) + a·m) for the triangle of a, c, m. As a·n and 2 sin(θ/2) = |c′ − c|
+    /// have no cancellation in twofold numbers, the rest may be doubles.
+    fn twofold_solid_angle(&self) -> Option<f64> {
+        let Self { corners, normals } = self;
+        if normals.is_empty() {
+            return None;
+        }
+        let end = |k: usize| &corners[if k + 1 == corners.len() { 0 } else { k + 1 }];
+        let length = |k: usize| end(k).minus(&corners[k]).length_squared();
+        let longest = (1..normals.len()).fold(0, |best, k| if length(k) > length(best) { k } else { best });
+        let (start, stop) = (corners[longest].twofold(), end(longest).twofold());
+        // Of the two summands one vanishes for half a circle and the other one for a point.
+        let apex = stop.add(start.negate()).cross(normals[longest]).add(start.add(stop)).unit();
+        let (mut re, mut im) = (1.0, 0.0);
+        for (k, normal) in normals.iter().enumerate().filter(|&(k, _)| k != longest) {
+            let (start, stop) = (&corners[k], end(k));
+            let (chord, sum) = (stop.minus(start), start.unit + stop.unit);
+            let (two_sines, two_cosines) = (chord.length(), sum.length());
+            // The middle as above: the two summands are parallel.
+            let middle = (chord.cross(normal.hi()) + sum) / (two_sines + two_cosines);
+            let numerator = 0.5 * apex.dot(*normal).hi * two_sines;
+            let apex = apex.hi();
+            let both = 1.0 + 0.5 * two_cosines + apex.dot(middle);
+            for corner in [start, stop] {
+                let denominator = both + apex.dot(corner.unit);
+                if denominator < NEAR {
+                    return None;
+                }
+                let tangent = numerator / denominator;
+                (re, im) = (re - im * tangent, im + re * tangent);
+            }
+        }
+        Some(2.0 * atan2(im.max(0.0), re))
     }
 }
 
@@ -106,27 +200,6 @@ fn width_squared(corners: &[Corner]) -> f64 {
     corners.iter().map(|corner| corner.minus(&corners[0]).length_squared()).fold(0.0, f64::max)
 }
 
-fn set_corners(view: &View<'_>, edges: &[Edge], corners: &mut Vec<Corner>) {
-    let mut before = edges[edges.len() - 1].id;
-    for edge in edges {
-        corners.push(double_corner(view, before, edge).unwrap_or_else(|| twofold_corner(view, before, edge.id)));
-        before = edge.id;
-    }
-    if width_squared(corners) < NARROW * NARROW {
-        set_twofold_corners(view, edges, corners);
-    }
-}
-
-fn set_twofold_corners(view: &View<'_>, edges: &[Edge], corners: &mut [Corner]) {
-    let mut before = edges[edges.len() - 1].id;
-    let mut normal = view.plane(before).twofold(view.site);
-    for (edge, corner) in edges.iter().zip(corners) {
-        let next = view.plane(edge.id).twofold(view.site);
-        *corner = corner_of_normals(view, before, edge.id, [normal, next]);
-        (before, normal) = (edge.id, next);
-    }
-}
-
 /// The corner in doubles, if one of the two ways to compute it is good enough.
 fn double_corner(view: &View<'_>, before: u32, edge: &Edge) -> Option<Corner> {
     let good = |cross: DVec3| {
@@ -136,25 +209,21 @@ fn double_corner(view: &View<'_>, before: u32, edge: &Edge) -> Option<Corner> {
     good(edge.start).or_else(|| good(view.other_corner(before, edge)))
 }
 
-/// The corner, on both planes to 2⁻⁹⁵.
+/// The corner of edges of the given normals, on both planes to 2⁻⁹⁵.
 ///
-/// A cross product of twofold numbers is off by 2⁻¹⁰⁴ over the sine in any direction; along the planes this moves almost
+/// A cross product of twofold numbers is off by 2⁻¹⁰² over the sine in any direction; along the planes this moves almost
 /// nothing, and across them it is taken out.
-fn twofold_corner(view: &View<'_>, before: u32, at: u32) -> Corner {
-    let normals = [before, at].map(|id| view.plane(id).twofold(view.site));
-    corner_of_normals(view, before, at, normals)
-}
-
-/// The same with the normals of the two edges.
-fn corner_of_normals(view: &View<'_>, before: u32, at: u32, normals: [Twofold3; 2]) -> Corner {
-    let corner = view.sharp_corner(before, at, normals);
-    let unit = if corner.hi().length_squared() < BLUNT * BLUNT {
-        Twofold3::from_sum(view.corner_by_sides(before, at), DVec3::ZERO)
-    } else {
+fn twofold_corner(view: &View<'_>, before: u32, at: u32, normals: [Twofold3; 2]) -> Corner {
+    let [first, second] = normals;
+    let corner = first.cross(second);
+    let square = corner.hi().length_squared();
+    let unit = if square >= SURE * SURE {
         corner.unit()
+    } else {
+        let corner = if square >= BLUNT * BLUNT { corner } else { view.sharp_corner(before, at, first, corner) };
+        let unit = corner.unit();
+        unit.add(second.scale(unit.dot(second).negate()))
     };
-    let [_, normal] = normals;
-    let unit = unit.add(normal.scale(unit.dot(normal).negate())).unit();
     Corner { unit: unit.hi(), rest: unit.lo() }
 }
 
@@ -175,7 +244,13 @@ fn edge_vector_moment(edges: &[Edge], corners: &[Corner]) -> DVec3 {
     let ends = corners.iter().skip(1).chain(corners.first());
     let mut sum = DVec3::ZERO;
     for ((edge, start), end) in edges.iter().zip(corners).zip(ends) {
-        sum += atan2(start.unit.cross(end.unit).length(), start.unit.dot(end.unit)) * edge.normal;
+        let s = 0.25 * end.minus(start).length_squared();
+        let angle = if s < 0.0625 {
+            2.0 * (s * (1.0 - s)).sqrt() * (1.0 + arc_over_sine_less_one(s))
+        } else {
+            atan2(start.unit.cross(end.unit).length(), start.unit.dot(end.unit))
+        };
+        sum += angle * edge.normal;
     }
     0.5 * sum
 }
@@ -188,30 +263,6 @@ fn fan_solid_angle(corners: &[Corner]) -> f64 {
         let (a, b, c) = (first.unit, pair[0].unit, pair[1].unit);
         let tangent = a.dot(d.cross(e)) / (1.0 + a.dot(b) + b.dot(c) + c.dot(a));
         (re, im) = (re - im * tangent, im + re * tangent);
-    }
-    2.0 * atan2(im.max(0.0), re)
-}
-
-/// The fan from the middle of the longest edge to the halves of all edges, in twofold numbers: a thin cell is within little
-/// more than a right angle from there.
-fn twofold_solid_angle(view: &View<'_>, edges: &[Edge], corners: &[Corner]) -> f64 {
-    let ends = |k: usize| (corners[k].twofold(), corners[if k + 1 == corners.len() { 0 } else { k + 1 }].twofold());
-    // Of the two summands one vanishes for half a circle and the other one for a point.
-    let middle = |k: usize| {
-        let ((start, end), normal) = (ends(k), view.plane(edges[k].id).twofold(view.site));
-        end.add(start.negate()).cross(normal).add(start.add(end)).unit()
-    };
-    let length = |k: usize| corners[if k + 1 == corners.len() { 0 } else { k + 1 }].minus(&corners[k]).length_squared();
-    let longest = (1..edges.len()).fold(0, |best, k| if length(k) > length(best) { k } else { best });
-    let apex = middle(longest);
-    let (mut re, mut im) = (1.0, 0.0);
-    for k in 0..edges.len() {
-        let ((start, end), middle) = (ends(k), middle(k));
-        for (a, b) in [(start, middle), (middle, end)] {
-            let (d, e) = (a.add(apex.negate()), b.add(apex.negate()));
-            let tangent = apex.dot(d.cross(e)).hi / apex.add(a).dot(apex.add(b)).hi;
-            (re, im) = (re - im * tangent, im + re * tangent);
-        }
     }
     2.0 * atan2(im.max(0.0), re)
 }

@@ -12,7 +12,7 @@ use super::clip::{Cell, View};
 use super::corner::{self, ABOVE, BELOW, Class, SET, SPECIAL};
 use super::diagram::{Diagram, NO_VERTEX, Record};
 use super::hull::{Facet, Hull, Shape};
-use super::measure::{Corner, is_thin, measure};
+use super::measure::{Measure, is_thin};
 use super::ordinary::{Side, Sum};
 use super::pending::Pending;
 use super::predicate::orientation;
@@ -30,13 +30,23 @@ pub(super) struct Outlines {
     /// The spokes whose neighbours come later.
     later: Vec<u32>,
     shared: Shared,
-    /// The edges of positive length of a cell that is cut: the facet at their start, and the neighbour with its ray.
-    starts: Vec<u32>,
-    around: Vec<u32>,
+    /// The edges of positive length of a cell that is cut, and the rays of the neighbours.
+    around: Vec<Across>,
     ids: Vec<u32>,
     rays: Vec<Ray>,
     cell: Cell,
-    corners: Vec<Corner>,
+    measure: Measure,
+}
+
+/// An edge of a cell that is cut.
+#[derive(Clone, Copy, Debug)]
+struct Across {
+    neighbor: u32,
+    /// The facet where it starts.
+    facet: u32,
+    /// Where `Shared` has the corners in which it leaves the hemisphere and enters it.
+    exit: u32,
+    entry: u32,
 }
 
 /// A corner of a cell, and the edge that starts there.
@@ -72,12 +82,17 @@ impl Outlines {
     /// Sets all of `diagram` but its directions; its vertices are in the place of the hull's planes.
     pub fn build(&mut self, shape: Shape, hull: &mut Hull, sites: Sites<'_>, pole: Option<Ray>, diagram: &mut Diagram) {
         diagram.reset(pole.map(|pole| pole.unit), sites.len());
+        // Sites on a circle have two corners, in the place of two facets.
+        if shape == Shape::Circle && hull.ring.len() > 2 {
+            hull.facets.resize(2, Facet { mark: SPECIAL, ..Facet::NEW });
+            hull.planes.resize(2, DVec3::ZERO);
+        }
+        let edges = (4 * hull.facets.len()).max(2 * hull.ring.len());
+        self.shared.reset(hull.facets.len(), if pole.is_some() { edges } else { 0 });
         set_owners(&hull.twins, sites, diagram);
         let mut walk = Walk { hull, sites, pole: pole.as_ref(), diagram };
-        self.shared.clear();
         match shape {
             Shape::Point => {
-                self.starts.clear();
                 self.around.clear();
                 self.add_cut_cell(0, &mut walk);
             }
@@ -93,7 +108,7 @@ impl Outlines {
                 }
             }
         }
-        if pole.is_some() || !self.shared.is_empty() {
+        if pole.is_some() || self.shared.has_flats() {
             self.shared.renumber(&walk.hull.facets, &mut walk.hull.planes, &mut walk.diagram.vertex_indices);
         }
     }
@@ -108,23 +123,22 @@ impl Outlines {
         }
     }
 
-    /// The cells of sites on a circle: all have the same two corners, in the place of two facets.
+    /// The cells of sites on a circle.
     fn add_lunes(&mut self, walk: &mut Walk<'_>) {
         let count = walk.hull.ring.len();
-        if count > 2 {
-            walk.hull.facets.resize(2, Facet { mark: SPECIAL, ..Facet::NEW });
-            walk.hull.planes.resize(2, DVec3::ZERO);
-        }
         for k in 0..count {
             let ring = &walk.hull.ring;
             let (before, after) = (ring[if k == 0 { count - 1 } else { k - 1 }], ring[(k + 1) % count]);
             let site = ring[k];
-            self.starts.clear();
+            // Of edge k, from here to the next site, 2k leaves the hemisphere seen from here, and 2k + 1 seen from there.
+            let (here, back) = (2 * k as u32, 2 * (if k == 0 { count - 1 } else { k - 1 }) as u32);
             self.around.clear();
-            self.around.push(before);
-            if count > 2 {
-                self.around.push(after);
-                self.starts.extend([0, 1]);
+            // Two sites have one edge.
+            if count > 2 || k == 0 {
+                self.around.push(Across { neighbor: before, facet: 0, exit: back + 1, entry: back });
+            }
+            if count > 2 || k == 1 {
+                self.around.push(Across { neighbor: after, facet: 1, exit: here, entry: here + 1 });
             }
             self.add_cut_cell(site, walk);
         }
@@ -145,14 +159,14 @@ impl Outlines {
             Some((solid_angle, vector_moment)) => walk.finish(site, start, solid_angle, vector_moment),
             None => {
                 walk.diagram.drop_outline(start);
-                self.starts.clear();
                 self.around.clear();
                 for (k, spoke) in self.spokes.iter().enumerate() {
                     let end = &self.spokes[if k + 1 == self.spokes.len() { 0 } else { k + 1 }];
                     let is_below = spoke.class | end.class == BELOW;
                     if !(spoke.is_flat || is_below && walk.hull.is_flat(walk.sites, spoke.edge)) {
-                        self.starts.push(spoke.facet());
-                        self.around.push(spoke.neighbor);
+                        let Spoke { neighbor, edge, .. } = *spoke;
+                        let entry = walk.across(edge);
+                        self.around.push(Across { neighbor, facet: spoke.facet(), exit: edge, entry });
                     }
                 }
                 self.add_cut_cell(site, walk);
@@ -255,17 +269,19 @@ impl Outlines {
             match (start.class, end.class) {
                 (ABOVE, ABOVE) if !start.is_flat => walk.diagram.push_edge(name, start.facet()),
                 (ABOVE, BELOW) => {
-                    let exit = crossing(walk.sites.offset(site, neighbor), pole)?;
+                    let (vertex, exit) =
+                        self.shared.crossing(start.edge, || crossing(walk.sites.offset(site, neighbor), pole))?;
                     walk.diagram.push_edge(name, start.facet());
-                    walk.diagram.push_edge(HORIZON, self.shared.crossing(site, neighbor, exit));
+                    walk.diagram.push_edge(HORIZON, vertex);
                     let e = exit - unit;
                     gap[0] = e;
                     let squares = start.square + e.length_squared();
                     sum.add(&Side::new(unit, unit + start.offset, start.offset, e, squares));
                 }
                 (BELOW, ABOVE) => {
-                    let entry = crossing(walk.sites.offset(neighbor, site), pole)?;
-                    walk.diagram.push_edge(name, self.shared.crossing(neighbor, site, entry));
+                    let normal = || walk.sites.offset(neighbor, site);
+                    let (vertex, entry) = self.shared.crossing(walk.across(start.edge), || crossing(normal(), pole))?;
+                    walk.diagram.push_edge(name, vertex);
                     let d = entry - unit;
                     gap[1] = d;
                     let squares = d.length_squared() + end.square;
@@ -287,40 +303,43 @@ impl Outlines {
         good.then(|| (solid_angle, sum.vector_moment()))
     }
 
-    /// Adds the cell of `site` with the neighbours `around`, whose edges start at the facets `starts`.
+    /// Adds the cell of `site` with the edges `around`.
     fn add_cut_cell(&mut self, site: u32, walk: &mut Walk<'_>) {
-        let Self { starts, around, ids, rays, cell, corners, shared, .. } = self;
+        let Self { around, ids, rays, cell, measure, shared, .. } = self;
         ids.clear();
         ids.extend(0..around.len() as u32);
         rays.clear();
-        rays.extend(around.iter().map(|&neighbor| walk.sites.ray(neighbor)));
+        rays.extend(around.iter().map(|across| walk.sites.ray(across.neighbor)));
         let ray = walk.sites.ray(site);
         let view = View { site: &ray, rays, pole: walk.pole };
         match walk.pole {
             None => cell.set_outline(&view, ids),
             Some(_) => cell.cut_with_horizon(&view, ids),
         }
-        let (solid_angle, vector_moment) = measure(&view, cell, corners);
+        let (solid_angle, vector_moment) = measure.measure(&view, cell);
         let start = walk.diagram.neighbors.len();
         if !cell.empty {
             let mut before = cell.edges.last().map_or(HORIZON, |edge| edge.id);
             for (k, edge) in cell.edges.iter().enumerate() {
                 let at = edge.id;
-                let neighbor = |id: u32| around[id as usize];
                 // The facet where the edges of a corner meet, or would but for the horizon, if they meet on that.
-                let from = if at != HORIZON { at } else { before.wrapping_add(1) % starts.len().max(1) as u32 };
-                let facet = starts.get(from as usize).copied();
+                let from = if at != HORIZON { at } else { before.wrapping_add(1) % around.len().max(1) as u32 };
+                let facet = around.get(from as usize).filter(|_| around.len() > 1).map(|across| across.facet);
                 let at_facet = |&facet: &u32| {
                     before != HORIZON && at != HORIZON
-                        || walk.is_special(facet) && view.meet_on_horizon(from, starts.len())
+                        || walk.is_special(facet) && view.meet_on_horizon(from, around.len())
                 };
-                let vertex = match (corners.get(k), facet.filter(at_facet)) {
+                let vertex = match (measure.corners.get(k), facet.filter(at_facet)) {
                     (None, _) => NO_VERTEX,
                     (Some(corner), Some(facet)) => walk.set_vertex(facet, corner.unit),
-                    (Some(corner), None) if before == HORIZON => shared.crossing(neighbor(at), site, corner.unit),
-                    (Some(corner), None) => shared.crossing(site, neighbor(before), corner.unit),
+                    (Some(corner), None) => {
+                        let goes_down = before != HORIZON;
+                        let edge = if goes_down { around[before as usize].exit } else { around[at as usize].entry };
+                        shared.crossing(edge, || Some(corner.unit)).map_or(NO_VERTEX, |(vertex, _)| vertex)
+                    }
                 };
-                walk.diagram.push_edge(if at == HORIZON { HORIZON } else { walk.name(neighbor(at)) }, vertex);
+                let neighbor = if at == HORIZON { HORIZON } else { walk.name(around[at as usize].neighbor) };
+                walk.diagram.push_edge(neighbor, vertex);
                 before = at;
             }
         }
@@ -344,6 +363,11 @@ impl Walk<'_> {
         self.diagram.records[name] = Record { place: site, start: start as u32, count };
         self.diagram.solid_angles[name] = solid_angle;
         self.diagram.vector_moments[name] = vector_moment;
+    }
+
+    /// The same edge seen from the other site.
+    fn across(&self, edge: u32) -> u32 {
+        self.hull.facets[(edge >> 2) as usize].across[(edge & 3) as usize]
     }
 
     fn is_special(&self, facet: u32) -> bool {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::twofold::{Twofold3, exponent, length_defect, ordered_sum3, product3, times_power};
+use super::twofold::{Twofold3, exponent, nearly_unit, product3, times_power};
 
 /// Power of two at which products of components neither overflow nor underflow.
 const ROOM: i32 = 500;
@@ -65,18 +65,20 @@ impl Ray {
     ///
     /// With u, v the unit vectors and c = v × u: u − v = c × (u + v) / (1 + u·v), and c has no cancellation.
     pub fn bisector(&self, other: &Self) -> Twofold3 {
-        let (u, v) = (self.twofold_unit(), other.twofold_unit());
-        if self.unit.dot(other.unit) < 0.0 {
-            return u.add(v.negate()).unit();
+        if self.unit.dot(other.unit) < FAR {
+            return self.twofold_offset(other).unit();
         }
         let cross = Twofold3::from_cross(times_power(other.exact, ROOM), times_power(self.exact, ROOM));
-        cross.unit().cross(u.add(v)).unit()
+        cross.towards_one().cross(self.twofold_unit().add(other.twofold_unit())).unit()
     }
 }
 
+/// Unit vectors whose cosine is below this, which are 1/4 apart, have a difference that is right to 2⁻⁹⁶ of itself.
+const FAR: f64 = 1.0 - 1.0 / 32.0;
+
 /// The unit vector along `v` as a sum of two, for largest components from 1 to 2.
 ///
-/// With t + r = v y exactly, y near 1/|v|, and E = |t + r|² − 1, of some 2⁻⁵¹: (t + r)(1 − E/2 + 3E²/8).
+/// With t + r = v y exactly, y near 1/|v|.
 #[inline]
 fn unit_vector(v: DVec3) -> (DVec3, DVec3) {
     let square = v.length_squared();
@@ -88,8 +90,7 @@ fn unit_vector(v: DVec3) -> (DVec3, DVec3) {
     } else {
         product3(v, 1.0 / square.sqrt())
     };
-    let excess = length_defect(t) + 2.0 * t.dot(r);
-    ordered_sum3(t, r - t * (0.5 * excess - 0.375 * excess * excess))
+    nearly_unit(t, r)
 }
 
 /// 2⁻⁴⁹: a few units in the last place of 4.

@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use super::corner::{ABOVE, SET};
+use super::diagram::NO_VERTEX;
 use super::hull::Facet;
 
 /// Which corners are the same, and those on the horizon.
@@ -9,79 +11,87 @@ use super::hull::Facet;
 pub(super) struct Shared {
     /// Pairs of facets with one corner.
     flats: Vec<(u32, u32)>,
-    /// The bisector that meets the horizon, and its number among them.
-    crossings: Vec<(u64, u32)>,
+    /// Where the first corner on the horizon is, behind those of facets.
+    first: u32,
+    /// The corner in which each edge goes below the horizon.
+    crossings: Vec<u32>,
     points: Vec<DVec3>,
     /// Leads from each corner to a lower one that is the same, or to itself.
     lower: Vec<u32>,
-    /// The corner that gives its place, and then the number.
+    /// The vertex of each corner.
     numbers: Vec<u32>,
 }
-
-/// Corners on the horizon are numbered from here until it is known how many facets there are below.
-const HORIZON_BIT: u32 = 1 << 31;
 
 const NONE: u32 = u32::MAX;
 
 impl Shared {
-    pub fn clear(&mut self) {
+    /// No corners are the same, of so many facets, and none on the horizon, which `edges` may meet.
+    pub fn reset(&mut self, facets: usize, edges: usize) {
         self.flats.clear();
+        self.first = facets as u32;
         self.crossings.clear();
+        self.crossings.resize(edges, NONE);
         self.points.clear();
     }
 
-    pub fn is_empty(&self) -> bool {
-        self.flats.is_empty() && self.crossings.is_empty()
+    pub fn has_flats(&self) -> bool {
+        !self.flats.is_empty()
     }
 
     pub fn push_flat(&mut self, facet: u32, other: u32) {
         self.flats.push((facet, other));
     }
 
-    /// A vertex at `point`, where the bisector of two sites, `left` on its left, goes below the horizon.
-    pub fn crossing(&mut self, left: u32, right: u32, point: DVec3) -> u32 {
-        let number = self.points.len() as u32;
-        self.crossings.push((u64::from(left) << 32 | u64::from(right), number));
-        self.points.push(point);
-        number | HORIZON_BIT
+    /// The vertex in which `edge`, seen from the site on its left, goes below the horizon; at `point`, unless it has one.
+    #[inline]
+    pub fn crossing(&mut self, edge: u32, point: impl FnOnce() -> Option<DVec3>) -> Option<(u32, DVec3)> {
+        let vertex = &mut self.crossings[edge as usize];
+        if *vertex == NONE {
+            let point = point()?;
+            *vertex = self.first + self.points.len() as u32;
+            self.points.push(point);
+        }
+        Some((*vertex, self.points[(*vertex - self.first) as usize]))
     }
 
     /// Leaves of the corners of facets, in `vertices`, and of those on the horizon each one once that is in `indices`.
+    #[inline(never)]
     pub fn renumber(&mut self, facets: &[Facet], vertices: &mut Vec<DVec3>, indices: &mut [u32]) {
-        let Self { flats, crossings, points, lower, numbers } = self;
-        let of_facets = facets.len() as u32;
-        vertices.truncate(facets.len());
-        vertices.append(points);
-        lower.clear();
-        lower.extend(0..vertices.len() as u32);
-        crossings.sort_unstable();
-        let pairs = crossings.windows(2).filter(|pair| pair[0].0 == pair[1].0);
-        let on_horizon = pairs.map(|pair| (of_facets + pair[0].1, of_facets + pair[1].1));
-        for (a, b) in flats.iter().copied().chain(on_horizon) {
-            let (a, b) = (root(lower, a), root(lower, b));
-            lower[a.max(b) as usize] = a.min(b);
-        }
-        numbers.clear();
-        numbers.resize(vertices.len(), NONE);
-        for index in indices.iter_mut().filter(|index| **index != NONE) {
-            if *index & HORIZON_BIT != 0 {
-                *index = *index - HORIZON_BIT + of_facets;
-            }
-            let root = root(lower, *index);
-            let giver = &mut numbers[root as usize];
-            *giver = (*giver).min(*index);
-            *index = root;
-        }
-        // Roots are the lowest of their corners, so that no place is overwritten before it is read.
+        let Self { flats, points, lower, numbers, .. } = self;
         let mut count = 0;
-        for number in numbers.iter_mut().filter(|number| **number != NONE) {
-            vertices[count as usize] = vertices[*number as usize];
-            *number = count;
-            count += 1;
+        numbers.clear();
+        if flats.is_empty() {
+            // Whether a corner is there is a matter of chance: no branch.
+            for (f, facet) in facets.iter().enumerate() {
+                vertices[count as usize] = vertices[f];
+                numbers.push(count);
+                count += u32::from(facet.mark & (ABOVE | SET) != 0);
+            }
+        } else {
+            numbers.resize(facets.len(), NONE);
+            lower.clear();
+            lower.extend(0..facets.len() as u32);
+            for &(a, b) in flats.iter() {
+                let (a, b) = (root(lower, a), root(lower, b));
+                lower[a.max(b) as usize] = a.min(b);
+            }
+            for (f, facet) in facets.iter().enumerate() {
+                let root = root(lower, f as u32) as usize;
+                if numbers[root] == NONE && facet.mark & (ABOVE | SET) != 0 {
+                    vertices[count as usize] = vertices[f];
+                    numbers[root] = count;
+                    count += 1;
+                }
+            }
+            for f in 0..facets.len() {
+                numbers[f] = numbers[root(lower, f as u32) as usize];
+            }
         }
         vertices.truncate(count as usize);
-        for index in indices.iter_mut().filter(|index| **index != NONE) {
-            *index = numbers[*index as usize];
+        numbers.extend(count..count + points.len() as u32);
+        vertices.append(points);
+        for index in indices {
+            *index = numbers.get(*index as usize).copied().unwrap_or(NO_VERTEX);
         }
     }
 }

@@ -56,14 +56,14 @@ pub(super) fn product3(v: DVec3, y: f64) -> (DVec3, DVec3) {
 
 /// `a + b` as a sum of two whose first is that sum rounded, for components of `b` far below those of `a` or zeros of `a`.
 #[inline]
-pub(super) fn ordered_sum3(a: DVec3, b: DVec3) -> (DVec3, DVec3) {
+fn ordered_sum3(a: DVec3, b: DVec3) -> (DVec3, DVec3) {
     let hi = a + b;
     (hi, b - (hi - a))
 }
 
 /// |v|² − 1 to about 2⁻¹⁰⁴, for lengths that are right to a few units in the last place.
 #[inline]
-pub(super) fn length_defect(v: DVec3) -> f64 {
+fn length_defect(v: DVec3) -> f64 {
     let [x, y, z] = v.to_array().map(|component| product(component, component));
     let s = sum(x.hi, y.hi);
     let t = sum(s.hi, z.hi);
@@ -94,14 +94,6 @@ impl Twofold {
     pub fn multiply(self, other: Self) -> Self {
         let p = product(self.hi, other.hi);
         ordered_sum(p.hi, p.lo + (self.hi * other.lo + self.lo * other.hi))
-    }
-
-    /// 1/√self, for a positive number of ordinary size: one Newton step from the double.
-    pub fn inverse_square_root(self) -> Self {
-        let y = 1.0 / self.hi.sqrt();
-        let y2 = product(y, y);
-        let defect = Self { hi: 1.0, lo: 0.0 }.add(self.multiply(y2).negate());
-        ordered_sum(y, 0.5 * y * defect.hi)
     }
 }
 
@@ -154,16 +146,28 @@ impl Twofold3 {
         Self { x: self.x.negate(), y: self.y.negate(), z: self.z.negate() }
     }
 
+    /// Right to a few 2⁻¹⁰⁴ of the product of the lengths.
     pub fn dot(self, other: Self) -> Twofold {
-        self.x.multiply(other.x).add(self.y.multiply(other.y)).add(self.z.multiply(other.z))
+        let (a, b) = (self.hi(), other.hi());
+        let (x, y, z) = (product(a.x, b.x), product(a.y, b.y), product(a.z, b.z));
+        let s = sum(x.hi, y.hi);
+        let t = sum(s.hi, z.hi);
+        sum(t.hi, (s.lo + t.lo) + ((x.lo + y.lo) + z.lo) + (a.dot(other.lo()) + self.lo().dot(b)))
     }
 
+    /// Right to a few 2⁻¹⁰⁴ of the product of the lengths.
     pub fn cross(self, other: Self) -> Self {
-        let minor = |a: Twofold, b: Twofold, c: Twofold, d: Twofold| a.multiply(b).add(c.multiply(d).negate());
+        let (a, b) = (self.hi(), other.hi());
+        let small = a.cross(other.lo()) + self.lo().cross(b);
+        let minor = |a: f64, b: f64, c: f64, d: f64, small: f64| {
+            let (p, q) = (product(a, b), product(c, d));
+            let s = sum(p.hi, -q.hi);
+            sum(s.hi, s.lo + ((p.lo - q.lo) + small))
+        };
         Self {
-            x: minor(self.y, other.z, self.z, other.y),
-            y: minor(self.z, other.x, self.x, other.z),
-            z: minor(self.x, other.y, self.y, other.x),
+            x: minor(a.y, b.z, a.z, b.y, small.x),
+            y: minor(a.z, b.x, a.x, b.z, small.y),
+            z: minor(a.x, b.y, a.y, b.x, small.z),
         }
     }
 
@@ -173,10 +177,27 @@ impl Twofold3 {
 
     /// The unit vector of this direction; a vector of any size but zero.
     pub fn unit(self) -> Self {
-        let factor = power_towards_one(self.hi());
-        let near_one = Self::from_sum(times_power(self.hi(), factor), times_power(self.lo(), factor));
-        near_one.scale(near_one.dot(near_one).inverse_square_root())
+        let v = self.towards_one();
+        let y = 1.0 / v.hi().length();
+        let (t, r) = product3(v.hi(), y);
+        let (hi, lo) = nearly_unit(t, r + v.lo() * y);
+        Self::from_sum(hi, lo)
     }
+
+    /// The vector times a power of two, so that its largest component is in [1, 2).
+    pub fn towards_one(self) -> Self {
+        let factor = -exponent(self.hi());
+        Self::from_sum(times_power(self.hi(), factor), times_power(self.lo(), factor))
+    }
+}
+
+/// The unit vector along t + r, whose length is right to a few units in the last place, as a sum of two.
+///
+/// With E = |t + r|² − 1, of some 2⁻⁵¹: (t + r)(1 − E/2 + 3E²/8).
+#[inline]
+pub(super) fn nearly_unit(t: DVec3, r: DVec3) -> (DVec3, DVec3) {
+    let excess = length_defect(t) + 2.0 * t.dot(r);
+    ordered_sum3(t, r - t * (0.5 * excess - 0.375 * excess * excess))
 }
 
 /// Exponent `e` of the largest component of `v`: 2ᵉ ≤ max |component| < 2ᵉ⁺¹; `v` is finite and not zero.
@@ -184,11 +205,6 @@ pub(super) fn exponent(v: DVec3) -> i32 {
     let largest = v.abs().max_element();
     let biased = (largest.to_bits() >> 52) as i32;
     if biased == 0 { (largest * 2f64.powi(200)).to_bits().wrapping_shr(52) as i32 - 1223 } else { biased - 1023 }
-}
-
-/// Exponent that brings the largest component of `v` into [1, 2).
-fn power_towards_one(v: DVec3) -> i32 {
-    -exponent(v)
 }
 
 /// 2ᵉ v: exact, unless a component falls below 2⁻¹⁰²² (it is then rounded once).
