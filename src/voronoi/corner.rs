@@ -7,11 +7,11 @@
 
 use glam::DVec3;
 
-use super::hull::Facet;
 use super::sites::Sites;
+use crate::solid_angle::{Real, dispatch, dispatch::Kernel};
 
 /// Where a corner is, as bits, of which a cell collects those of all its corners.
-pub(super) type Class = u32;
+pub(super) type Class = u8;
 
 /// Certainly above the horizon, or there is none.
 pub(super) const ABOVE: Class = 1;
@@ -35,7 +35,7 @@ const WIDE: f64 = 0.7;
 const NEAR_HORIZON: f64 = 1.0 / (1u64 << 44) as f64;
 
 /// Facets at a time, component by component, so that one instruction does several.
-const BATCH: usize = 16;
+const BATCH: usize = 32;
 
 /// The corners of a batch of facets.
 struct Batch<const N: usize> {
@@ -51,23 +51,25 @@ struct Batch<const N: usize> {
     quality: [f64; N],
 }
 
-/// Sets the mark of each facet to the class of its corner, and its plane, if the class is `ABOVE`, to that corner less the
-/// facet's first site.
-pub(super) fn set_corners(facets: &mut [Facet], planes: &mut [DVec3], sites: Sites<'_>, pole: Option<DVec3>) {
+/// Sets the `classes` of the corners of facets, each given by three sites counter-clockwise, and `offsets` to each corner
+/// less the first of its sites, or to zero if the class is not `ABOVE`.
+pub(super) fn set_corners(
+    facets: &[[u32; 3]],
+    classes: &mut [Class],
+    offsets: &mut [DVec3],
+    sites: Sites<'_>,
+    pole: Option<DVec3>,
+) {
     let mut batch = Batch::<BATCH>::ZERO;
-    for (facets, planes) in facets.chunks_mut(BATCH).zip(planes.chunks_mut(BATCH)) {
-        for (lane, facet) in facets.iter().enumerate() {
-            let [a, b, c] = facet.sites;
+    let chunks = facets.chunks(BATCH).zip(classes.chunks_mut(BATCH).zip(offsets.chunks_mut(BATCH)));
+    for (facets, (classes, offsets)) in chunks {
+        for (lane, &[a, b, c]) in facets.iter().enumerate() {
             batch.load(lane, sites.unit(a), sites.offset(b, a), sites.offset(c, a));
         }
-        batch.compute(pole.unwrap_or(DVec3::ZERO));
-        for (lane, (facet, plane)) in facets.iter_mut().zip(planes).enumerate() {
+        batch.compute(facets.len(), pole);
+        for (lane, &facet) in facets.iter().enumerate() {
             let corner = batch.corner(lane, pole.is_some());
-            let (class, offset) = corner.unwrap_or_else(|| from_other_sites(facet.sites, sites, pole));
-            facet.mark = class;
-            if class == ABOVE {
-                *plane = offset;
-            }
+            (classes[lane], offsets[lane]) = corner.unwrap_or_else(|| from_other_sites(facet, sites, pole));
         }
     }
 }
@@ -75,15 +77,31 @@ pub(super) fn set_corners(facets: &mut [Facet], planes: &mut [DVec3], sites: Sit
 /// The corner of a facet that is not one for its first site.
 #[cold]
 fn from_other_sites([a, b, c]: [u32; 3], sites: Sites<'_>, pole: Option<DVec3>) -> (Class, DVec3) {
-    let mut batch = Batch::<2>::ZERO;
+    let mut batch = Batch::<4>::ZERO;
     batch.load(0, sites.unit(b), sites.offset(c, b), sites.offset(a, b));
     batch.load(1, sites.unit(c), sites.offset(a, c), sites.offset(b, c));
-    batch.compute(pole.unwrap_or(DVec3::ZERO));
+    batch.compute(2, pole);
     let corner = |lane, site| {
         let (class, offset) = batch.corner(lane, pole.is_some())?;
-        Some((class, offset + sites.offset(site, a)))
+        Some((class, if class == ABOVE { offset + sites.offset(site, a) } else { offset }))
     };
     corner(0, b).or_else(|| corner(1, c)).unwrap_or((SPECIAL, DVec3::ZERO))
+}
+
+/// The first `count` corners of a batch, and up to three more.
+struct Compute<'a, const N: usize> {
+    batch: &'a mut Batch<N>,
+    count: usize,
+    pole: DVec3,
+}
+
+impl<const N: usize> Kernel for Compute<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<T: Real>(self) {
+        self.batch.compute_lanes(self.count, self.pole);
+    }
 }
 
 impl<const N: usize> Batch<N> {
@@ -106,8 +124,13 @@ impl<const N: usize> Batch<N> {
         }
     }
 
-    fn compute(&mut self, pole: DVec3) {
-        for k in 0..N {
+    fn compute(&mut self, count: usize, pole: Option<DVec3>) {
+        dispatch::run(Compute { batch: self, count, pole: pole.unwrap_or(DVec3::ZERO) });
+    }
+
+    #[inline(always)]
+    fn compute_lanes(&mut self, count: usize, pole: DVec3) {
+        for k in 0..count.next_multiple_of(4).min(N) {
             let of = |v: &[[f64; N]; 3]| DVec3::new(v[0][k], v[1][k], v[2][k]);
             let (site, d, e) = (of(&self.site), of(&self.d), of(&self.e));
             let (dd, ee, de, n) = (d.length_squared(), e.length_squared(), d.dot(e), d.cross(e));

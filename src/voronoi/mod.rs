@@ -77,16 +77,17 @@ mod error;
 mod exact;
 mod hull;
 mod incircle;
+mod lanes;
 mod locator;
 mod measure;
 mod order;
 mod ordinary;
 mod outlines;
-mod pending;
 mod predicate;
 mod ray;
 mod shared;
 mod sites;
+mod spokes;
 mod twofold;
 mod validate;
 

@@ -1,9 +1,8 @@
 //! From the hull to the diagram: one walk along the curve measures the cells and writes down their outlines.
 //!
 //! # Model
-//! A cell's corners are the facets around its site. An edge is added to both of its cells when the first of them is met; a
-//! corner gives up its form, the difference from a site, for a unit vector when the last of its cells is met. So everything
-//! that is under way belongs to sites that were met as neighbours only, and these are few along a space-filling curve.
+//! A cell's corners are the facets around its site. A corner is held as its difference from the lowest of its sites until all
+//! cells are done. Most cells are measured edge by edge, some cells at a time; others one by one.
 
 use glam::DVec3;
 
@@ -12,25 +11,26 @@ use super::clip::{Cell, View};
 use super::corner::{self, ABOVE, BELOW, Class, SET, SPECIAL};
 use super::diagram::{Diagram, NO_VERTEX, Record};
 use super::hull::{Facet, Hull, Shape};
+use super::lanes::{Lanes, MOST_CORNERS, Measures, SURE_LENGTH};
 use super::measure::{Corner, is_thin, measure};
 use super::ordinary::{Side, Sum};
-use super::pending::Pending;
 use super::predicate::orientation;
 use super::ray::Ray;
 use super::shared::Shared;
 use super::sites::Sites;
+use super::spokes::{Around, Spokes};
 
 /// What the walk works with, to be used again.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Outlines {
-    /// A facet of each site, and the index of the site in it.
-    corner_of: Vec<u32>,
-    pending: Pending,
-    spokes: Vec<Spoke>,
-    /// The spokes whose neighbours come later.
-    later: Vec<u32>,
+    /// Of some cells at a time.
+    spokes: Spokes,
+    lanes: Box<Lanes>,
+    /// Of one cell.
+    edges: Vec<Edge>,
+    classes: Vec<Class>,
     shared: Shared,
-    /// The edges of positive length of a cell that is cut: the facet at their start, and the neighbour with its ray.
+    /// The edges of positive length of a cell that is cut: the vertex at their start, and the neighbour with its ray.
     starts: Vec<u32>,
     around: Vec<u32>,
     ids: Vec<u32>,
@@ -39,30 +39,25 @@ pub(super) struct Outlines {
     corners: Vec<Corner>,
 }
 
-/// A corner of a cell, and the edge that starts there.
+/// An edge of a cell, and the corner where it starts.
 #[derive(Clone, Copy, Debug)]
-struct Spoke {
+struct Edge {
     /// The corner less the site, if the class is `ABOVE`.
     offset: DVec3,
     square: f64,
     class: Class,
+    vertex: u32,
     /// Four times the facet, plus the index of the edge in it.
     edge: u32,
     neighbor: u32,
     is_flat: bool,
 }
 
-impl Spoke {
-    const NEW: Self = Self { offset: DVec3::ZERO, square: 0.0, class: 0, edge: 0, neighbor: 0, is_flat: false };
-
-    fn facet(&self) -> u32 {
-        self.edge >> 2
-    }
-}
-
 /// The parts of a diagram under construction.
 struct Walk<'a> {
     hull: &'a mut Hull,
+    /// Of all vertices.
+    classes: Vec<Class>,
     sites: Sites<'a>,
     pole: Option<&'a Ray>,
     diagram: &'a mut Diagram,
@@ -73,7 +68,8 @@ impl Outlines {
     pub fn build(&mut self, shape: Shape, hull: &mut Hull, sites: Sites<'_>, pole: Option<Ray>, diagram: &mut Diagram) {
         diagram.reset(pole.map(|pole| pole.unit), sites.len());
         set_owners(&hull.twins, sites, diagram);
-        let mut walk = Walk { hull, sites, pole: pole.as_ref(), diagram };
+        let classes = core::mem::take(&mut self.classes);
+        let mut walk = Walk { hull, classes, sites, pole: pole.as_ref(), diagram };
         self.shared.clear();
         match shape {
             Shape::Point => {
@@ -82,37 +78,162 @@ impl Outlines {
                 self.add_cut_cell(0, &mut walk);
             }
             Shape::Circle => self.add_lunes(&mut walk),
-            Shape::Solid => {
-                corner::set_corners(&mut walk.hull.facets, &mut walk.hull.planes, sites, pole.map(|pole| pole.unit));
-                self.set_corner_of(&walk);
-                self.pending.reset(sites.len());
-                for site in 0..sites.len() as u32 {
-                    if self.corner_of[site as usize] != u32::MAX {
-                        self.add_cell(site, &mut walk);
-                    }
-                }
-            }
+            Shape::Solid => self.add_cells(&mut walk),
         }
         if pole.is_some() || !self.shared.is_empty() {
             self.shared.renumber(&walk.hull.facets, &mut walk.hull.planes, &mut walk.diagram.vertex_indices);
         }
+        self.classes = walk.classes;
     }
 
-    fn set_corner_of(&mut self, walk: &Walk<'_>) {
-        self.corner_of.clear();
-        self.corner_of.resize(walk.sites.len(), u32::MAX);
-        for (f, facet) in (0..).zip(&walk.hull.facets) {
-            for (k, &site) in (0..).zip(&facet.sites) {
-                self.corner_of[site as usize] = 4 * f + k;
+    fn add_cells(&mut self, walk: &mut Walk<'_>) {
+        self.spokes.reset(&walk.hull.facets, walk.sites.len());
+        walk.classes.clear();
+        walk.classes.resize(walk.hull.facets.len(), SPECIAL);
+        while self.spokes.next(&mut walk.hull.facets) {
+            let (first, facets) = self.spokes.new_facets();
+            let new = first..first + facets.len();
+            let (classes, offsets) = (&mut walk.classes[new.clone()], &mut walk.hull.planes[new]);
+            corner::set_corners(facets, classes, offsets, walk.sites, walk.pole.map(|pole| pole.unit));
+            self.set_lanes(walk);
+            let mut lane = 0;
+            for k in 0..self.spokes.cells.len() {
+                let around = self.spokes.cells[k];
+                self.add_cell(around, lane, walk);
+                lane += lanes(around.count);
             }
         }
+        let Walk { hull, classes, sites, .. } = walk;
+        self.spokes.each_vertex(|vertex, lowest| {
+            let is_ordinary = classes[vertex] & CLASSES == ABOVE;
+            hull.planes[vertex] += if is_ordinary { sites.unit(lowest) } else { DVec3::ZERO };
+        });
+    }
+
+    fn set_lanes(&mut self, walk: &Walk<'_>) {
+        let mut lane = 0;
+        for &Around { site, start, count } in &self.spokes.cells {
+            if lanes(count) == 0 {
+                continue;
+            }
+            let unit = walk.sites.unit(site);
+            for spoke in &self.spokes.all[start..start + count] {
+                let offset = walk.hull.planes[spoke.vertex as usize] + walk.sites.offset(spoke.lowest, site);
+                self.lanes.set(lane, unit, offset);
+                lane += 1;
+            }
+            self.lanes.set(lane, unit, self.lanes.offset(lane - count));
+            lane += 1;
+        }
+        self.lanes.compute(lane);
+    }
+
+    /// Adds a cell, whose edges are in the lanes from `lane` on if they are not too many.
+    #[inline(always)]
+    fn add_cell(&mut self, around: Around, lane: usize, walk: &mut Walk<'_>) {
+        let spokes = &self.spokes.all[around.start..around.start + around.count];
+        let classes = spokes.iter().fold(0, |classes, spoke| classes | walk.classes[spoke.vertex as usize]);
+        let start = walk.diagram.neighbors.len();
+        if classes == BELOW {
+            walk.finish(around.site, start, 0.0, DVec3::ZERO);
+            return;
+        }
+        if classes == ABOVE && around.count <= MOST_CORNERS {
+            let Measures { solid_angle, vector_moment, reach, has_lengths } = self.lanes.cell(lane, around.count);
+            if has_lengths && !is_thin(solid_angle, reach) {
+                walk.diagram.vertex_indices.extend(spokes.iter().map(|spoke| spoke.vertex));
+                let Walk { sites, diagram: Diagram { owners, neighbors, .. }, .. } = walk;
+                if owners.is_empty() {
+                    neighbors.extend(spokes.iter().map(|spoke| sites.index(spoke.neighbor) as u32));
+                } else {
+                    neighbors.extend(spokes.iter().map(|spoke| owners[sites.index(spoke.neighbor)]));
+                }
+                walk.finish(around.site, start, solid_angle, vector_moment);
+                return;
+            }
+        }
+        self.add_uneven_cell(around, walk);
+    }
+
+    /// Adds a cell some of whose corners or edges need more than ordinary ones do.
+    #[inline(never)]
+    fn add_uneven_cell(&mut self, around: Around, walk: &mut Walk<'_>) {
+        let site = around.site;
+        let classes = self.set_edges(around, walk);
+        let sum = self.sum_edges(site, walk);
+        let start = walk.diagram.neighbors.len();
+        let measures = match classes {
+            ABOVE => self.ordinary_cell(&sum, walk),
+            BELOW => Some((0.0, DVec3::ZERO)),
+            ABOVE_AND_BELOW => self.clipped_cell(site, sum, walk),
+            _ => None,
+        };
+        match measures {
+            Some((solid_angle, vector_moment)) => walk.finish(site, start, solid_angle, vector_moment),
+            None => {
+                walk.diagram.drop_outline(start);
+                self.starts.clear();
+                self.around.clear();
+                for (k, start) in self.edges.iter().enumerate() {
+                    let end = &self.edges[if k + 1 == self.edges.len() { 0 } else { k + 1 }];
+                    let is_below = start.class | end.class == BELOW;
+                    if !(start.is_flat || is_below && walk.hull.is_flat(walk.sites, start.edge)) {
+                        self.starts.push(start.vertex);
+                        self.around.push(start.neighbor);
+                    }
+                }
+                self.add_cut_cell(site, walk);
+            }
+        }
+    }
+
+    /// Sets `edges`; gives the classes of all corners.
+    fn set_edges(&mut self, around: Around, walk: &Walk<'_>) -> Class {
+        let mut classes = 0;
+        self.edges.clear();
+        for spoke in &self.spokes.all[around.start..around.start + around.count] {
+            let offset = walk.hull.planes[spoke.vertex as usize] + walk.sites.offset(spoke.lowest, around.site);
+            let mark = walk.classes[spoke.vertex as usize];
+            let (square, class, is_flat) = (offset.length_squared(), mark & CLASSES, mark >> (FLAT + (spoke.edge & 3)) & 1 != 0);
+            let (vertex, edge, neighbor) = (spoke.vertex, spoke.edge, spoke.neighbor);
+            self.edges.push(Edge { offset, square, class, vertex, edge, neighbor, is_flat });
+            classes |= class;
+        }
+        classes
+    }
+
+    /// Sums the edges between corners above the horizon, and finds which of those to later sites have no length.
+    fn sum_edges(&mut self, site: u32, walk: &mut Walk<'_>) -> Sum {
+        let unit = walk.sites.unit(site);
+        let mut sum = Sum::default();
+        for k in 0..self.edges.len() {
+            let (start, end) = (self.edges[k], self.edges[if k + 1 == self.edges.len() { 0 } else { k + 1 }]);
+            let classes = start.class | end.class;
+            // Below the horizon nobody asks, but for a cell that is cut.
+            let mut has_length = classes == ABOVE_AND_BELOW || classes == BELOW;
+            if classes == ABOVE {
+                let side = Side::new(unit, unit + start.offset, start.offset, end.offset, start.square + end.square);
+                has_length = side.chord.length_squared() > SURE_LENGTH * SURE_LENGTH * start.square;
+                sum.add(&side);
+            }
+            if start.neighbor > site && !has_length && walk.hull.is_flat(walk.sites, start.edge) {
+                let across = walk.hull.facets[(start.edge >> 2) as usize].across[(start.edge & 3) as usize];
+                walk.classes[start.vertex as usize] |= 1 << (FLAT + (start.edge & 3));
+                walk.classes[end.vertex as usize] |= 1 << (FLAT + (across & 3));
+                self.shared.push_flat(start.vertex, end.vertex);
+                self.edges[k].is_flat = true;
+            }
+        }
+        sum
     }
 
     /// The cells of sites on a circle: all have the same two corners, in the place of two facets.
     fn add_lunes(&mut self, walk: &mut Walk<'_>) {
         let count = walk.hull.ring.len();
         if count > 2 {
-            walk.hull.facets.resize(2, Facet { mark: SPECIAL, ..Facet::NEW });
+            walk.hull.facets.resize(2, Facet::NEW);
+            walk.classes.clear();
+            walk.classes.resize(2, SPECIAL);
             walk.hull.planes.resize(2, DVec3::ZERO);
         }
         for k in 0..count {
@@ -130,114 +251,14 @@ impl Outlines {
         }
     }
 
-    fn add_cell(&mut self, site: u32, walk: &mut Walk<'_>) {
-        let classes = self.set_spokes(site, walk);
-        let mut sum = self.pending.take(site);
-        self.add_edges(site, &mut sum, walk);
-        let start = walk.diagram.neighbors.len();
-        let measures = match classes {
-            ABOVE => self.ordinary_cell(&sum, walk),
-            BELOW => Some((0.0, DVec3::ZERO)),
-            ABOVE_AND_BELOW => self.clipped_cell(site, sum, walk),
-            _ => None,
-        };
-        match measures {
-            Some((solid_angle, vector_moment)) => walk.finish(site, start, solid_angle, vector_moment),
-            None => {
-                walk.diagram.drop_outline(start);
-                self.starts.clear();
-                self.around.clear();
-                for (k, spoke) in self.spokes.iter().enumerate() {
-                    let end = &self.spokes[if k + 1 == self.spokes.len() { 0 } else { k + 1 }];
-                    let is_below = spoke.class | end.class == BELOW;
-                    if !(spoke.is_flat || is_below && walk.hull.is_flat(walk.sites, spoke.edge)) {
-                        self.starts.push(spoke.facet());
-                        self.around.push(spoke.neighbor);
-                    }
-                }
-                self.add_cut_cell(site, walk);
-            }
-        }
-    }
-
-    /// Sets `spokes` to those of `site`; gives the classes of its corners.
-    #[inline(always)]
-    fn set_spokes(&mut self, site: u32, walk: &mut Walk<'_>) -> Class {
-        let Hull { facets, planes, .. } = &mut *walk.hull;
-        let start = self.corner_of[site as usize];
-        let mut corner = start;
-        self.spokes.clear();
-        // From facet to facet first, for each step waits for the one before; then what is there.
-        loop {
-            // The site after the next one is across the edge to the next corner.
-            let facet = &facets[(corner >> 2) as usize];
-            let (first, second) = NEXT[(corner & 3) as usize];
-            let edge = corner - (corner & 3) + first;
-            self.spokes.push(Spoke { edge, neighbor: facet.sites[second as usize], ..Spoke::NEW });
-            let across = facet.across[first as usize];
-            corner = across - (across & 3) + NEXT[(across & 3) as usize].0;
-            if corner == start {
-                break;
-            }
-        }
-        let mut classes = 0;
-        for spoke in &mut self.spokes {
-            let Facet { sites: [a, b, c], mark, .. } = facets[(spoke.edge >> 2) as usize];
-            let plane = &mut planes[(spoke.edge >> 2) as usize];
-            spoke.offset = *plane + walk.sites.offset(a, site);
-            spoke.square = spoke.offset.length_squared();
-            spoke.class = mark & CLASSES;
-            spoke.is_flat = mark >> (FLAT + (spoke.edge & 3)) & 1 != 0;
-            let is_done = spoke.class == ABOVE && a.max(b).max(c) == site;
-            *plane += if is_done { walk.sites.unit(a) } else { DVec3::ZERO };
-            classes |= spoke.class;
-        }
-        classes
-    }
-
-    /// Adds the edges to later sites to both of their cells, and finds which of them have no length.
-    #[inline(always)]
-    fn add_edges(&mut self, site: u32, sum: &mut Sum, walk: &mut Walk<'_>) {
-        let unit = walk.sites.unit(site);
-        // Which they are is a matter of chance: a list, not a branch.
-        self.later.resize(self.spokes.len() + 1, 0);
-        let mut count = 0;
-        for (k, spoke) in (0..).zip(&self.spokes) {
-            self.later[count] = k;
-            count += usize::from(spoke.neighbor > site);
-        }
-        self.pending.reserve(count);
-        for &k in &self.later[..count] {
-            let start = &self.spokes[k as usize];
-            let end = &self.spokes[if k as usize + 1 == self.spokes.len() { 0 } else { k as usize + 1 }];
-            let classes = start.class | end.class;
-            // Below the horizon nobody asks, but for a cell that is cut.
-            let mut has_length = classes == ABOVE_AND_BELOW || classes == BELOW;
-            if classes == ABOVE {
-                let side = Side::new(unit, unit + start.offset, start.offset, end.offset, start.square + end.square);
-                has_length = side.chord.length_squared() > SURE_LENGTH * SURE_LENGTH * start.square;
-                sum.add(&side);
-                self.pending.of(start.neighbor).add_reverse(&side, walk.sites.offset(site, start.neighbor));
-            }
-            if !has_length && walk.hull.is_flat(walk.sites, start.edge) {
-                let (f, e) = (start.edge >> 2, start.edge & 3);
-                let across = walk.hull.facets[f as usize].across[e as usize];
-                walk.hull.facets[f as usize].mark |= 1 << (FLAT + e);
-                walk.hull.facets[(across >> 2) as usize].mark |= 1 << (FLAT + (across & 3));
-                self.shared.push_flat(f, across >> 2);
-                self.spokes[k as usize].is_flat = true;
-            }
-        }
-    }
-
     /// Adds the outline of a cell of ordinary corners above the horizon, unless it is thin.
     #[inline(always)]
     fn ordinary_cell(&mut self, sum: &Sum, walk: &mut Walk<'_>) -> Option<(f64, DVec3)> {
         let mut reach = 0.0;
-        for spoke in &self.spokes {
-            reach = if spoke.square > reach { spoke.square } else { reach };
-            if !spoke.is_flat {
-                walk.diagram.push_edge(walk.name(spoke.neighbor), spoke.facet());
+        for edge in &self.edges {
+            reach = if edge.square > reach { edge.square } else { reach };
+            if !edge.is_flat {
+                walk.diagram.push_edge(walk.name(edge.neighbor), edge.vertex);
             }
         }
         let solid_angle = sum.solid_angle();
@@ -248,15 +269,15 @@ impl Outlines {
     fn clipped_cell(&mut self, site: u32, mut sum: Sum, walk: &mut Walk<'_>) -> Option<(f64, DVec3)> {
         let (pole, unit) = (walk.pole?.unit, walk.sites.unit(site));
         let mut gap = [DVec3::ZERO; 2];
-        for (k, start) in self.spokes.iter().enumerate() {
-            let end = &self.spokes[if k + 1 == self.spokes.len() { 0 } else { k + 1 }];
+        for (k, start) in self.edges.iter().enumerate() {
+            let end = &self.edges[if k + 1 == self.edges.len() { 0 } else { k + 1 }];
             let neighbor = start.neighbor;
             let name = walk.name(neighbor);
             match (start.class, end.class) {
-                (ABOVE, ABOVE) if !start.is_flat => walk.diagram.push_edge(name, start.facet()),
+                (ABOVE, ABOVE) if !start.is_flat => walk.diagram.push_edge(name, start.vertex),
                 (ABOVE, BELOW) => {
                     let exit = crossing(walk.sites.offset(site, neighbor), pole)?;
-                    walk.diagram.push_edge(name, start.facet());
+                    walk.diagram.push_edge(name, start.vertex);
                     walk.diagram.push_edge(HORIZON, self.shared.crossing(site, neighbor, exit));
                     let e = exit - unit;
                     gap[0] = e;
@@ -280,8 +301,8 @@ impl Outlines {
         }
         let (at_exit, at_entry) = (d.length_squared(), e.length_squared());
         sum.add(&Side::new(unit, unit + d, d, e, at_exit + at_entry));
-        let above = self.spokes.iter().filter(|spoke| spoke.class == ABOVE);
-        let reach = above.map(|spoke| spoke.square).fold(at_exit.max(at_entry), f64::max);
+        let above = self.edges.iter().filter(|edge| edge.class == ABOVE);
+        let reach = above.map(|edge| edge.square).fold(at_exit.max(at_entry), f64::max);
         let solid_angle = sum.solid_angle();
         let good = solid_angle >= NARROW * NARROW && !is_thin(solid_angle, reach);
         good.then(|| (solid_angle, sum.vector_moment()))
@@ -347,12 +368,12 @@ impl Walk<'_> {
     }
 
     fn is_special(&self, facet: u32) -> bool {
-        self.hull.facets[facet as usize].mark & SPECIAL != 0
+        self.classes[facet as usize] & SPECIAL != 0
     }
 
     /// Gives the corner of a facet, which the first of its cells has computed if doubles could not.
     fn set_vertex(&mut self, facet: u32, corner: DVec3) -> u32 {
-        let mark = &mut self.hull.facets[facet as usize].mark;
+        let mark = &mut self.classes[facet as usize];
         if *mark & (SPECIAL | SET) == SPECIAL {
             *mark |= SET;
             self.hull.planes[facet as usize] = corner;
@@ -408,17 +429,16 @@ const SHORT: f64 = 1.0 / (1u64 << 20) as f64;
 /// Cells reach up to this cosine from their site, if they are to be measured from there.
 const NEAR: f64 = 0.6;
 
-/// Corners of ordinary facets that are farther apart than this, over their distance from a site, are two.
-const SURE_LENGTH: f64 = 1.0 / (1u64 << 40) as f64;
-
 /// Clipped cells narrower than this need more than doubles on the horizon.
 const NARROW: f64 = 1.0 / 64.0;
-
-/// The two indices after each of a facet's.
-const NEXT: [(u32, u32); 3] = [(1, 2), (2, 0), (0, 1)];
 
 const ABOVE_AND_BELOW: Class = ABOVE | BELOW;
 
 /// The bits of a facet's mark: the class of its corner, `SET`, and, from `FLAT` on, which of its edges have no length.
 const CLASSES: Class = ABOVE | BELOW | SPECIAL;
 const FLAT: u32 = 4;
+
+/// How many lanes a cell of `count` corners takes.
+fn lanes(count: usize) -> usize {
+    if count <= MOST_CORNERS { count + 1 } else { 0 }
+}
