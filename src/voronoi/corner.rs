@@ -35,64 +35,43 @@ const WIDE: f64 = 0.7;
 const NEAR_HORIZON: f64 = 1.0 / (1u64 << 44) as f64;
 
 /// Facets at a time, component by component, so that one instruction does several.
-const BATCH: usize = 32;
+pub(super) const BATCH: usize = 32;
 
 /// The corners of a batch of facets.
-struct Batch<const N: usize> {
+#[derive(Clone, Debug)]
+pub(super) struct Batch<const N: usize = BATCH> {
     /// The first site, the edges from there, and the corner less the site.
     site: [[f64; N]; 3],
     d: [[f64; N]; 3],
     e: [[f64; N]; 3],
     offset: [[f64; N]; 3],
-    /// Component of d × e along the pole, over |d| |e|: its square, with its sign.
-    height: [f64; N],
-    /// Not negative if edges are long enough, and if doubles will do for the rest.
-    length: [f64; N],
-    quality: [f64; N],
+    /// Not negative if the corner is certainly above the horizon and doubles are enough.
+    above: [f64; N],
+    /// Positive if it is certainly below.
+    below: [f64; N],
 }
 
-/// Sets the `classes` of the corners of facets, each given by three sites counter-clockwise, and `offsets` to each corner
-/// less the first of its sites, or to zero if the class is not `ABOVE`.
-pub(super) fn set_corners(
-    facets: &[[u32; 3]],
-    classes: &mut [Class],
-    offsets: &mut [DVec3],
-    sites: Sites<'_>,
-    pole: Option<DVec3>,
-) {
-    let mut batch = Batch::<BATCH>::ZERO;
-    let chunks = facets.chunks(BATCH).zip(classes.chunks_mut(BATCH).zip(offsets.chunks_mut(BATCH)));
-    for (facets, (classes, offsets)) in chunks {
-        for (lane, &[a, b, c]) in facets.iter().enumerate() {
-            batch.load(lane, sites.unit(a), sites.offset(b, a), sites.offset(c, a));
-        }
-        batch.compute(facets.len(), pole);
-        for (lane, &facet) in facets.iter().enumerate() {
-            let corner = batch.corner(lane, pole.is_some());
-            (classes[lane], offsets[lane]) = corner.unwrap_or_else(|| from_other_sites(facet, sites, pole));
+/// The class of a facet's corner, and, if that is `ABOVE`, the corner less the first of its sites, else zero.
+#[cold]
+pub(super) fn from_all_sites([a, b, c]: [u32; 3], sites: Sites<'_>, pole: Option<DVec3>) -> (Class, DVec3) {
+    let mut batch = Batch::<4>::default();
+    batch.load(0, sites.unit(a), sites.offset(b, a), sites.offset(c, a));
+    batch.load(1, sites.unit(b), sites.offset(c, b), sites.offset(a, b));
+    batch.load(2, sites.unit(c), sites.offset(a, c), sites.offset(b, c));
+    batch.compute(3, pole);
+    for (lane, site) in [a, b, c].into_iter().enumerate() {
+        if let Some((class, offset)) = batch.corner(lane) {
+            return (class, if class == ABOVE { offset + sites.offset(site, a) } else { offset });
         }
     }
-}
-
-/// The corner of a facet that is not one for its first site.
-#[cold]
-fn from_other_sites([a, b, c]: [u32; 3], sites: Sites<'_>, pole: Option<DVec3>) -> (Class, DVec3) {
-    let mut batch = Batch::<4>::ZERO;
-    batch.load(0, sites.unit(b), sites.offset(c, b), sites.offset(a, b));
-    batch.load(1, sites.unit(c), sites.offset(a, c), sites.offset(b, c));
-    batch.compute(2, pole);
-    let corner = |lane, site| {
-        let (class, offset) = batch.corner(lane, pole.is_some())?;
-        Some((class, if class == ABOVE { offset + sites.offset(site, a) } else { offset }))
-    };
-    corner(0, b).or_else(|| corner(1, c)).unwrap_or((SPECIAL, DVec3::ZERO))
+    (SPECIAL, DVec3::ZERO)
 }
 
 /// The first `count` corners of a batch, and up to three more.
 struct Compute<'a, const N: usize> {
     batch: &'a mut Batch<N>,
     count: usize,
-    pole: DVec3,
+    pole: Option<DVec3>,
 }
 
 impl<const N: usize> Kernel for Compute<'_, N> {
@@ -104,19 +83,17 @@ impl<const N: usize> Kernel for Compute<'_, N> {
     }
 }
 
-impl<const N: usize> Batch<N> {
-    const ZERO: Self = Self {
-        site: [[0.0; N]; 3],
-        d: [[0.0; N]; 3],
-        e: [[0.0; N]; 3],
-        offset: [[0.0; N]; 3],
-        height: [0.0; N],
-        length: [0.0; N],
-        quality: [0.0; N],
-    };
+impl<const N: usize> Default for Batch<N> {
+    fn default() -> Self {
+        let zero = [0.0; N];
+        Self { site: [zero; 3], d: [zero; 3], e: [zero; 3], offset: [zero; 3], above: zero, below: zero }
+    }
+}
 
+impl<const N: usize> Batch<N> {
+    /// The facet with the edges `d`, `e` from its first `site`.
     #[inline(always)]
-    fn load(&mut self, lane: usize, site: DVec3, d: DVec3, e: DVec3) {
+    pub fn load(&mut self, lane: usize, site: DVec3, d: DVec3, e: DVec3) {
         for k in 0..3 {
             self.site[k][lane] = site[k];
             self.d[k][lane] = d[k];
@@ -124,17 +101,19 @@ impl<const N: usize> Batch<N> {
         }
     }
 
-    fn compute(&mut self, count: usize, pole: Option<DVec3>) {
-        dispatch::run(Compute { batch: self, count, pole: pole.unwrap_or(DVec3::ZERO) });
+    /// Computes the first `count` corners.
+    pub fn compute(&mut self, count: usize, pole: Option<DVec3>) {
+        dispatch::run(Compute { batch: self, count, pole });
     }
 
     #[inline(always)]
-    fn compute_lanes(&mut self, count: usize, pole: DVec3) {
+    fn compute_lanes(&mut self, count: usize, pole: Option<DVec3>) {
+        let (has_horizon, pole) = (pole.is_some(), pole.unwrap_or(DVec3::ZERO));
         for k in 0..count.next_multiple_of(4).min(N) {
             let of = |v: &[[f64; N]; 3]| DVec3::new(v[0][k], v[1][k], v[2][k]);
             let (site, d, e) = (of(&self.site), of(&self.d), of(&self.e));
             let (dd, ee, de, n) = (d.length_squared(), e.length_squared(), d.dot(e), d.cross(e));
-            let (nn, height) = (n.length_squared(), n.dot(pole));
+            let nn = n.length_squared();
             let half = 0.5 / nn;
             let x = d * (ee * (dd - de) * half) + e * (dd * (ee - de) * half);
             let sine_squared = x.length_squared();
@@ -145,22 +124,24 @@ impl<const N: usize> Batch<N> {
                 self.offset[j][k] = offset;
             }
             let product = dd * ee;
-            self.height[k] = height * height.abs() / product;
-            self.length[k] = least(dd, ee) - SHORT * SHORT;
+            let length = least(dd, ee) - SHORT * SHORT;
             let shape = nn - SHARP * SHARP * product;
-            self.quality[k] = least(shape, least(WIDE * WIDE - sine_squared, n.dot(site)));
+            let quality = least(shape, least(WIDE * WIDE - sine_squared, n.dot(site)));
+            // The component of d × e along the pole, over |d| |e|: its square, with its sign.
+            let height = if has_horizon { n.dot(pole) } else { 1.0 };
+            let height = height * height.abs() / product;
+            self.above[k] = least(height - NEAR_HORIZON * NEAR_HORIZON, least(length, quality));
+            self.below[k] = least(-NEAR_HORIZON * NEAR_HORIZON - height, length);
         }
     }
 
-    /// The class and the corner less the site; none if doubles are not enough.
+    /// The class and the corner less the site, or zero if the class is `BELOW`; none if doubles are not enough.
     #[inline(always)]
-    fn corner(&self, lane: usize, has_horizon: bool) -> Option<(Class, DVec3)> {
-        if has_horizon && self.height[lane] < -NEAR_HORIZON * NEAR_HORIZON && self.length[lane] >= 0.0 {
-            return Some((BELOW, DVec3::ZERO));
+    pub fn corner(&self, lane: usize) -> Option<(Class, DVec3)> {
+        if self.above[lane] >= 0.0 {
+            return Some((ABOVE, DVec3::new(self.offset[0][lane], self.offset[1][lane], self.offset[2][lane])));
         }
-        let uncertain = has_horizon && self.height[lane] < NEAR_HORIZON * NEAR_HORIZON;
-        let good = least(self.length[lane], self.quality[lane]) >= 0.0 && !uncertain;
-        good.then(|| (ABOVE, DVec3::new(self.offset[0][lane], self.offset[1][lane], self.offset[2][lane])))
+        (self.below[lane] > 0.0).then_some((BELOW, DVec3::ZERO))
     }
 }
 

@@ -5,22 +5,21 @@
 
 use glam::DVec3;
 
+use super::measure::is_thin;
 use super::ordinary::{
     ALL_TERMS, COEFFICIENTS, FEW_TERMS, SMALL, SOME_TERMS, Sum, arc_over_sine_less_one, power_series, small_arctangent,
 };
+use super::spokes::{CELLS, STEPS};
 use crate::solid_angle::{Real, dispatch, dispatch::Kernel};
 
-/// Cells at a time.
-pub(super) const CELLS: usize = 16;
+/// Most lanes.
+pub(super) const LANES: usize = 1 + CELLS * (STEPS + 1);
 
-/// Most corners of a cell that is measured here.
-pub(super) const MOST_CORNERS: usize = 15;
-
-/// Each cell has its corners, and the first one again.
-const LANES: usize = CELLS * (MOST_CORNERS + 1);
+/// Lanes that are written together.
+const STRIDE: usize = 8;
 
 /// One number of each lane, and room for what comes after the last.
-type Column = [f64; LANES + 4];
+type Column = [f64; LANES + STRIDE];
 
 /// Corners of cells, and the edges from each corner to the next.
 #[derive(Clone, Debug)]
@@ -36,20 +35,13 @@ pub(super) struct Lanes {
     tangent: Column,
     half_angle: Column,
     moment: [Column; 3],
-}
-
-/// The measures of a cell, and the square of the largest offset of a corner.
-pub(super) struct Measures {
-    pub solid_angle: f64,
-    pub vector_moment: DVec3,
-    pub reach: f64,
-    /// All edges are longer than `SURE_LENGTH` of the distance of their start.
-    pub has_lengths: bool,
+    has_small_tangents: bool,
+    has_lengths: bool,
 }
 
 impl Default for Lanes {
     fn default() -> Self {
-        const ZERO: Column = [0.0; LANES + 4];
+        const ZERO: Column = [0.0; LANES + STRIDE];
         Self {
             unit: [ZERO; 3],
             offset: [ZERO; 3],
@@ -59,23 +51,28 @@ impl Default for Lanes {
             tangent: ZERO,
             half_angle: ZERO,
             moment: [ZERO; 3],
+            has_small_tangents: false,
+            has_lengths: false,
         }
     }
 }
 
 impl Lanes {
+    /// The site of the cell whose corners are those from `start` to `end`; what comes after is set later.
     #[inline(always)]
-    pub fn set(&mut self, lane: usize, unit: DVec3, offset: DVec3) {
-        for k in 0..3 {
-            self.unit[k][lane] = unit[k];
-            self.offset[k][lane] = offset[k];
+    pub fn set_site(&mut self, start: usize, end: usize, unit: DVec3) {
+        for (column, unit) in self.unit.iter_mut().zip(unit.to_array()) {
+            let lanes = &mut column[start..start + (end - start).next_multiple_of(STRIDE)];
+            lanes.chunks_exact_mut(STRIDE).for_each(|lanes| lanes.fill(unit));
         }
     }
 
     /// The corner less the site.
     #[inline(always)]
-    pub fn offset(&self, lane: usize) -> DVec3 {
-        DVec3::new(self.offset[0][lane], self.offset[1][lane], self.offset[2][lane])
+    pub fn set_offset(&mut self, lane: usize, offset: DVec3) {
+        for (column, offset) in self.offset.iter_mut().zip(offset.to_array()) {
+            column[lane] = offset;
+        }
     }
 
     /// Computes the edges from the first `count` corners, but for the last of a cell, which mean nothing.
@@ -85,16 +82,10 @@ impl Lanes {
 
     #[inline(always)]
     fn compute_all(&mut self, count: usize) {
-        let count = count.next_multiple_of(4).min(LANES);
+        let last = count - 1;
+        let count = count.next_multiple_of(4).min(LANES + 3);
         self.compute_chords(count);
-        let mut longest = [0.0; 4];
-        for chords in self.chord[..count].chunks_exact(4) {
-            for k in 0..4 {
-                longest[k] = if chords[k] > longest[k] { chords[k] } else { longest[k] };
-            }
-        }
-        let [a, b, c, d] = longest;
-        let longest = 0.25 * a.max(b).max(c.max(d));
+        let longest = 0.25 * largest(&self.chord[..count]);
         if longest <= FEW_TERMS {
             self.compute_bulges(count, |s| power_series(s, &COEFFICIENTS[..4]));
         } else if longest <= SOME_TERMS {
@@ -105,6 +96,8 @@ impl Lanes {
             self.compute_bulges(count, arc_over_sine_less_one);
         }
         self.compute_triangles(count);
+        self.has_small_tangents = largest(&self.tangent[..count]) <= SMALL;
+        self.has_lengths = smallest(&self.chord[..last]) > largest(&self.square[..count]) * SURE;
     }
 
     #[inline(always)]
@@ -142,32 +135,33 @@ impl Lanes {
         }
     }
 
-    /// The measures of the cell of the `count` corners from `start` on.
+    /// Solid angle and vector moment of the cell of the `count` corners from `start` on, unless it is thin or has edges of no
+    /// sure length.
     #[inline(always)]
-    pub fn cell(&self, start: usize, count: usize) -> Measures {
-        let lanes = start..start + count;
-        let (mut half_angle, mut moment, mut reach, mut largest) = (0.0, DVec3::ZERO, 0.0, 0.0);
-        let mut has_lengths = true;
-        for k in lanes.clone() {
+    pub fn cell(&self, start: usize, count: usize) -> Option<(f64, DVec3)> {
+        let (mut half_angle, mut moment, mut reach) = (0.0, DVec3::ZERO, 0.0);
+        for k in start..start + count {
             half_angle += self.half_angle[k];
             moment += DVec3::new(self.moment[0][k], self.moment[1][k], self.moment[2][k]);
             reach = if self.square[k] > reach { self.square[k] } else { reach };
-            largest = if self.tangent[k] > largest { self.tangent[k] } else { largest };
-            has_lengths &= self.chord[k] > SURE_LENGTH * SURE_LENGTH * self.square[k];
         }
-        let solid_angle = if largest <= SMALL {
-            2.0 * half_angle
-        } else {
-            let mut sum = Sum::default();
-            self.tangent[lanes].iter().for_each(|&tangent| sum.turn(tangent));
-            sum.solid_angle()
-        };
-        Measures { solid_angle, vector_moment: 0.5 * moment, reach, has_lengths }
+        let solid_angle = if self.has_small_tangents { 2.0 * half_angle } else { self.solid_angle(start, count) };
+        let has_lengths = self.has_lengths || (start..start + count).all(|k| self.chord[k] > self.square[k] * SURE);
+        (has_lengths && !is_thin(solid_angle, reach)).then_some((solid_angle, 0.5 * moment))
+    }
+
+    #[inline(never)]
+    fn solid_angle(&self, start: usize, count: usize) -> f64 {
+        let mut sum = Sum::default();
+        self.tangent[start..start + count].iter().for_each(|&tangent| sum.turn(tangent));
+        sum.solid_angle()
     }
 }
 
 /// Corners of ordinary facets that are farther apart than this, over their distance from a site, are two.
 pub(super) const SURE_LENGTH: f64 = 1.0 / (1u64 << 40) as f64;
+
+const SURE: f64 = SURE_LENGTH * SURE_LENGTH;
 
 struct Compute<'a> {
     lanes: &'a mut Lanes,
@@ -181,4 +175,31 @@ impl Kernel for Compute<'_> {
     fn run<T: Real>(self) {
         self.lanes.compute_all(self.count);
     }
+}
+
+/// The largest of four times as many numbers, of which none is negative.
+#[inline(always)]
+fn largest(column: &[f64]) -> f64 {
+    let mut largest = [0.0; 4];
+    for numbers in column.chunks_exact(4) {
+        for k in 0..4 {
+            largest[k] = if numbers[k] > largest[k] { numbers[k] } else { largest[k] };
+        }
+    }
+    let [a, b, c, d] = largest;
+    a.max(b).max(c.max(d))
+}
+
+/// The smallest of some numbers.
+#[inline(always)]
+fn smallest(column: &[f64]) -> f64 {
+    let mut smallest = [f64::INFINITY; 4];
+    let chunks = column.chunks_exact(4);
+    let rest = chunks.remainder().iter().fold(f64::INFINITY, |a, &b| if b < a { b } else { a });
+    for numbers in chunks {
+        for k in 0..4 {
+            smallest[k] = if numbers[k] < smallest[k] { numbers[k] } else { smallest[k] };
+        }
+    }
+    smallest.into_iter().fold(rest, |a, b| if b < a { b } else { a })
 }

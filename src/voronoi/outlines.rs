@@ -4,28 +4,33 @@
 //! A cell's corners are the facets around its site. A corner is held as its difference from the lowest of its sites until all
 //! cells are done. Most cells are measured edge by edge, some cells at a time; others one by one.
 
+use core::ops::Range;
+
 use glam::DVec3;
 
 use super::HORIZON;
 use super::clip::{Cell, View};
-use super::corner::{self, ABOVE, BELOW, Class, SET, SPECIAL};
+use super::corner::{self, ABOVE, BELOW, Batch, Class, SET, SPECIAL};
 use super::diagram::{Diagram, NO_VERTEX, Record};
 use super::hull::{Facet, Hull, Shape};
-use super::lanes::{Lanes, MOST_CORNERS, Measures, SURE_LENGTH};
+use super::lanes::{LANES, Lanes, SURE_LENGTH};
 use super::measure::{Corner, is_thin, measure};
 use super::ordinary::{Side, Sum};
 use super::predicate::orientation;
 use super::ray::Ray;
 use super::shared::Shared;
 use super::sites::Sites;
-use super::spokes::{Around, Spokes};
+use super::spokes::{self, Around, New, Spokes};
 
 /// What the walk works with, to be used again.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Outlines {
     /// Of some cells at a time.
     spokes: Spokes,
+    batch: Box<Batch>,
     lanes: Box<Lanes>,
+    neighbors: Vec<u32>,
+    vertices: Vec<u32>,
     /// Of one cell.
     edges: Vec<Edge>,
     classes: Vec<Class>,
@@ -90,69 +95,100 @@ impl Outlines {
         self.spokes.reset(&walk.hull.facets, walk.sites.len());
         walk.classes.clear();
         walk.classes.resize(walk.hull.facets.len(), SPECIAL);
-        while self.spokes.next(&mut walk.hull.facets) {
-            let (first, facets) = self.spokes.new_facets();
-            let new = first..first + facets.len();
-            let (classes, offsets) = (&mut walk.classes[new.clone()], &mut walk.hull.planes[new]);
-            corner::set_corners(facets, classes, offsets, walk.sites, walk.pole.map(|pole| pole.unit));
+        while self.spokes.next(&mut walk.hull.facets, walk.sites) {
+            self.set_vertices(walk);
             self.set_lanes(walk);
-            let mut lane = 0;
-            for k in 0..self.spokes.cells.len() {
-                let around = self.spokes.cells[k];
-                self.add_cell(around, lane, walk);
-                lane += lanes(around.count);
+            // Ordinary cells wait for others, in order to be written down together.
+            let mut waiting = 1;
+            let mut start = walk.diagram.neighbors.len();
+            for k in 0..self.spokes.cells().len() {
+                let around = self.spokes.cells()[k];
+                if let Some((solid_angle, vector_moment)) = self.ordinary_cell(around, walk) {
+                    walk.finish(around.site, start, start + around.count, solid_angle, vector_moment);
+                    start += around.count;
+                } else {
+                    self.write(waiting..around.start, walk);
+                    self.add_uneven_cell(around, walk);
+                    waiting = around.start + around.count + 1;
+                    start = walk.diagram.neighbors.len();
+                }
             }
+            self.write(waiting..self.spokes.all.len(), walk);
         }
         let Walk { hull, classes, sites, .. } = walk;
-        self.spokes.each_vertex(|vertex, lowest| {
-            let is_ordinary = classes[vertex] & CLASSES == ABOVE;
-            hull.planes[vertex] += if is_ordinary { sites.unit(lowest) } else { DVec3::ZERO };
+        self.spokes.each_lowest(|site, vertices| {
+            let unit = sites.unit(site);
+            for (corner, class) in hull.planes[vertices.clone()].iter_mut().zip(&classes[vertices]) {
+                *corner += if class & CLASSES == ABOVE { unit } else { DVec3::ZERO };
+            }
         });
     }
 
-    fn set_lanes(&mut self, walk: &Walk<'_>) {
-        let mut lane = 0;
-        for &Around { site, start, count } in &self.spokes.cells {
-            if lanes(count) == 0 {
-                continue;
+    /// Computes the corners that no cell has met before.
+    fn set_vertices(&mut self, walk: &mut Walk<'_>) {
+        let pole = walk.pole.map(|pole| pole.unit);
+        let Spokes { all, offsets, .. } = &self.spokes;
+        let (mut vertex, new) = self.spokes.new_vertices();
+        for new in new.chunks(corner::BATCH) {
+            for (lane, &New { site, spoke }) in new.iter().enumerate() {
+                self.batch.load(lane, walk.sites.unit(site), offsets[spoke as usize], offsets[spoke as usize + 1]);
             }
-            let unit = walk.sites.unit(site);
-            for spoke in &self.spokes.all[start..start + count] {
-                let offset = walk.hull.planes[spoke.vertex as usize] + walk.sites.offset(spoke.lowest, site);
-                self.lanes.set(lane, unit, offset);
-                lane += 1;
+            self.batch.compute(new.len(), pole);
+            for (lane, new) in new.iter().enumerate() {
+                (walk.classes[vertex], walk.hull.planes[vertex]) = self.batch.corner(lane).unwrap_or_else(|| {
+                    let edge = all[new.spoke as usize].edge;
+                    let [a, b, c] = walk.hull.facets[(edge >> 2) as usize].sites;
+                    corner::from_all_sites([[c, a, b], [a, b, c], [b, c, a]][(edge & 3) as usize], walk.sites, pole)
+                });
+                vertex += 1;
             }
-            self.lanes.set(lane, unit, self.lanes.offset(lane - count));
-            lane += 1;
         }
-        self.lanes.compute(lane);
     }
 
-    /// Adds a cell, whose edges are in the lanes from `lane` on if they are not too many.
-    #[inline(always)]
-    fn add_cell(&mut self, around: Around, lane: usize, walk: &mut Walk<'_>) {
-        let spokes = &self.spokes.all[around.start..around.start + around.count];
-        let classes = spokes.iter().fold(0, |classes, spoke| classes | walk.classes[spoke.vertex as usize]);
-        let start = walk.diagram.neighbors.len();
-        if classes == BELOW {
-            walk.finish(around.site, start, 0.0, DVec3::ZERO);
+    /// Measures all cells as if they were ordinary ones, unless they have too many corners.
+    fn set_lanes(&mut self, walk: &Walk<'_>) {
+        let Spokes { all, offsets, .. } = &self.spokes;
+        if all.len() > LANES {
             return;
         }
-        if classes == ABOVE && around.count <= MOST_CORNERS {
-            let Measures { solid_angle, vector_moment, reach, has_lengths } = self.lanes.cell(lane, around.count);
-            if has_lengths && !is_thin(solid_angle, reach) {
-                walk.diagram.vertex_indices.extend(spokes.iter().map(|spoke| spoke.vertex));
-                let Walk { sites, diagram: Diagram { owners, neighbors, .. }, .. } = walk;
-                if owners.is_empty() {
-                    neighbors.extend(spokes.iter().map(|spoke| sites.index(spoke.neighbor) as u32));
-                } else {
-                    neighbors.extend(spokes.iter().map(|spoke| owners[sites.index(spoke.neighbor)]));
-                }
-                walk.finish(around.site, start, solid_angle, vector_moment);
-                return;
-            }
+        for &Around { site, start, count } in self.spokes.cells() {
+            self.lanes.set_site(start, start + count, walk.sites.unit(site));
         }
-        self.add_uneven_cell(around, walk);
+        for (lane, spoke) in all.iter().enumerate().skip(1) {
+            self.lanes.set_offset(lane, walk.hull.planes[spoke.vertex as usize] + offsets[spoke.lowest as usize]);
+        }
+        self.lanes.compute(all.len());
+    }
+
+    /// Solid angle and vector moment of a cell of ordinary corners above the horizon, unless it is thin or has edges that
+    /// may have no length.
+    #[inline(always)]
+    fn ordinary_cell(&self, around: Around, walk: &Walk<'_>) -> Option<(f64, DVec3)> {
+        let spokes = &self.spokes.all[around.start..around.start + around.count];
+        let classes = spokes.iter().fold(0, |classes, spoke| classes | walk.classes[spoke.vertex as usize]);
+        let is_ordinary = classes == ABOVE && self.spokes.all.len() <= LANES;
+        is_ordinary.then(|| self.lanes.cell(around.start, around.count)).flatten()
+    }
+
+    /// Writes down the outlines of ordinary cells.
+    #[inline(always)]
+    fn write(&mut self, spokes: Range<usize>, walk: &mut Walk<'_>) {
+        let Walk { sites, diagram: Diagram { owners, neighbors, vertex_indices, .. }, .. } = walk;
+        let spokes = &self.spokes.all[spokes];
+        self.neighbors.resize(spokes.len().max(self.neighbors.len()), 0);
+        self.vertices.resize(spokes.len().max(self.vertices.len()), 0);
+        let mut count = 0;
+        for pair in spokes.windows(2) {
+            let [spoke, after] = pair else { continue };
+            self.vertices[count] = spoke.vertex;
+            self.neighbors[count] = sites.index(after.before) as u32;
+            count += usize::from(spoke.edge != spokes::NONE);
+        }
+        if !owners.is_empty() {
+            self.neighbors[..count].iter_mut().for_each(|name| *name = owners[*name as usize]);
+        }
+        neighbors.extend_from_slice(&self.neighbors[..count]);
+        vertex_indices.extend_from_slice(&self.vertices[..count]);
     }
 
     /// Adds a cell some of whose corners or edges need more than ordinary ones do.
@@ -163,13 +199,16 @@ impl Outlines {
         let sum = self.sum_edges(site, walk);
         let start = walk.diagram.neighbors.len();
         let measures = match classes {
-            ABOVE => self.ordinary_cell(&sum, walk),
+            ABOVE => self.even_cell(&sum, walk),
             BELOW => Some((0.0, DVec3::ZERO)),
             ABOVE_AND_BELOW => self.clipped_cell(site, sum, walk),
             _ => None,
         };
         match measures {
-            Some((solid_angle, vector_moment)) => walk.finish(site, start, solid_angle, vector_moment),
+            Some((solid_angle, vector_moment)) => {
+                let end = walk.diagram.neighbors.len();
+                walk.finish(site, start, end, solid_angle, vector_moment);
+            }
             None => {
                 walk.diagram.drop_outline(start);
                 self.starts.clear();
@@ -191,11 +230,12 @@ impl Outlines {
     fn set_edges(&mut self, around: Around, walk: &Walk<'_>) -> Class {
         let mut classes = 0;
         self.edges.clear();
-        for spoke in &self.spokes.all[around.start..around.start + around.count] {
-            let offset = walk.hull.planes[spoke.vertex as usize] + walk.sites.offset(spoke.lowest, around.site);
+        for pair in self.spokes.all[around.start..=around.start + around.count].windows(2) {
+            let [spoke, after] = pair else { continue };
+            let offset = walk.hull.planes[spoke.vertex as usize] + self.spokes.offsets[spoke.lowest as usize];
             let mark = walk.classes[spoke.vertex as usize];
             let (square, class, is_flat) = (offset.length_squared(), mark & CLASSES, mark >> (FLAT + (spoke.edge & 3)) & 1 != 0);
-            let (vertex, edge, neighbor) = (spoke.vertex, spoke.edge, spoke.neighbor);
+            let (vertex, edge, neighbor) = (spoke.vertex, spoke.edge, after.before);
             self.edges.push(Edge { offset, square, class, vertex, edge, neighbor, is_flat });
             classes |= class;
         }
@@ -253,7 +293,7 @@ impl Outlines {
 
     /// Adds the outline of a cell of ordinary corners above the horizon, unless it is thin.
     #[inline(always)]
-    fn ordinary_cell(&mut self, sum: &Sum, walk: &mut Walk<'_>) -> Option<(f64, DVec3)> {
+    fn even_cell(&mut self, sum: &Sum, walk: &mut Walk<'_>) -> Option<(f64, DVec3)> {
         let mut reach = 0.0;
         for edge in &self.edges {
             reach = if edge.square > reach { edge.square } else { reach };
@@ -345,7 +385,8 @@ impl Outlines {
                 before = at;
             }
         }
-        walk.finish(site, start, solid_angle, vector_moment);
+        let end = walk.diagram.neighbors.len();
+        walk.finish(site, start, end, solid_angle, vector_moment);
     }
 }
 
@@ -359,9 +400,9 @@ impl Walk<'_> {
 
     /// Writes down the cell of `site`, whose outline starts at `start`.
     #[inline(always)]
-    fn finish(&mut self, site: u32, start: usize, solid_angle: f64, vector_moment: DVec3) {
+    fn finish(&mut self, site: u32, start: usize, end: usize, solid_angle: f64, vector_moment: DVec3) {
         let name = self.name(site) as usize;
-        let count = (self.diagram.neighbors.len() - start) as u32;
+        let count = (end - start) as u32;
         self.diagram.records[name] = Record { place: site, start: start as u32, count };
         self.diagram.solid_angles[name] = solid_angle;
         self.diagram.vector_moments[name] = vector_moment;
@@ -437,8 +478,3 @@ const ABOVE_AND_BELOW: Class = ABOVE | BELOW;
 /// The bits of a facet's mark: the class of its corner, `SET`, and, from `FLAT` on, which of its edges have no length.
 const CLASSES: Class = ABOVE | BELOW | SPECIAL;
 const FLAT: u32 = 4;
-
-/// How many lanes a cell of `count` corners takes.
-fn lanes(count: usize) -> usize {
-    if count <= MOST_CORNERS { count + 1 } else { 0 }
-}

@@ -4,22 +4,30 @@
 //! Vertices are numbered in the order in which cells meet them: that of the lowest of their three sites. A step around a site
 //! waits for the one before, but not for those around other sites, so that these are taken in turns.
 
-use super::hull::Facet;
-use super::lanes::{CELLS, MOST_CORNERS};
+use glam::DVec3;
 
-/// A corner of a cell, and the edge that starts there.
+use super::hull::Facet;
+use super::sites::Sites;
+
+/// Cells at a time.
+pub(super) const CELLS: usize = 16;
+
+/// Steps that are taken in turns; cells of so many corners are few.
+pub(super) const STEPS: usize = 16;
+
+/// A corner of a cell, and the edge that starts there. After the last one of a cell comes the first one again.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Spoke {
     /// Four times the facet, plus the index of the edge in it.
     pub edge: u32,
-    /// The site across the edge.
-    pub neighbor: u32,
+    /// The site across the edge that ends here.
+    pub before: u32,
     pub vertex: u32,
-    /// The lowest of the three sites of the corner.
+    /// Which of the `offsets` is that of the lowest site of the vertex.
     pub lowest: u32,
 }
 
-/// The spokes of a cell are those from `start` on.
+/// The `count` spokes of a cell are those from `start` on.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Around {
     pub site: u32,
@@ -36,26 +44,50 @@ pub(super) struct Spokes {
     next: u32,
     /// Number of vertices.
     vertices: u32,
-    pub cells: Vec<Around>,
+    cells: [Around; CELLS],
+    len: usize,
+    /// From the second on; ends with the first one of the last cell.
     pub all: Vec<Spoke>,
-    /// The sites of the vertices met first, of as many as there are new ones.
-    facets: Vec<[u32; 3]>,
-    new: usize,
-    steps: Vec<[(u32, u32); MOST_CORNERS]>,
+    /// The site before each spoke, less the site of the cell; the first one is zero.
+    pub offsets: Vec<DVec3>,
+    /// The vertices that were not met before, of as many as there are.
+    new: Vec<New>,
+    count: usize,
+    steps: [[Step; STEPS]; CELLS],
 }
 
-/// For sites without a cell.
-const NONE: u32 = u32::MAX;
+/// A vertex, by the site that is the first to meet it, and the spoke.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct New {
+    pub site: u32,
+    pub spoke: u32,
+}
+
+/// An edge, and the site across.
+#[derive(Clone, Copy, Debug, Default)]
+struct Step {
+    edge: u32,
+    neighbor: u32,
+}
+
+/// For sites without a cell, and for the edge of the first spoke when it is there again.
+pub(super) const NONE: u32 = u32::MAX;
 
 /// The index of a facet's three after and before one.
-const AFTER: [usize; 4] = [1, 2, 0, 0];
-const BEFORE: [u32; 4] = [2, 0, 1, 0];
+const AFTER: [u8; 4] = [1, 2, 0, 0];
+const BEFORE: [u8; 4] = [2, 0, 1, 0];
+
+/// The site across an edge.
+#[inline(always)]
+fn neighbor(facet: &Facet, edge: u32) -> u32 {
+    facet.sites[usize::from(AFTER[(edge & 3) as usize])]
+}
 
 /// The edge of the next corner around the same site.
 #[inline(always)]
 fn turn(facet: &Facet, edge: u32) -> u32 {
     let across = facet.across[(edge & 3) as usize];
-    across - (across & 3) + BEFORE[(across & 3) as usize]
+    (across & !3) + u32::from(BEFORE[(across & 3) as usize])
 }
 
 impl Spokes {
@@ -73,115 +105,145 @@ impl Spokes {
     }
 
     /// Goes on to the next cells; returns whether there are any.
-    pub fn next(&mut self, facets: &mut [Facet]) -> bool {
-        self.cells.clear();
+    pub fn next(&mut self, facets: &mut [Facet], sites: Sites<'_>) -> bool {
+        self.len = 0;
         let mut starts = [0; CELLS];
-        while self.cells.len() < CELLS && (self.next as usize) < self.marks.len() {
+        while self.len < CELLS && (self.next as usize) < self.marks.len() {
             let start = self.marks[self.next as usize];
             if start != NONE {
-                starts[self.cells.len()] = start;
-                self.cells.push(Around { site: self.next, start: 0, count: 0 });
+                starts[self.len] = start;
+                self.cells[self.len].site = self.next;
+                self.len += 1;
             }
             self.next += 1;
         }
         self.walk(&starts, facets);
-        self.number(&starts, facets);
-        !self.cells.is_empty()
+        self.number(&starts, facets, sites);
+        self.len > 0
+    }
+
+    pub fn cells(&self) -> &[Around] {
+        &self.cells[..self.len]
     }
 
     /// Sets `steps`, and the number of spokes of each cell, or 0 if they are too many.
     fn walk(&mut self, starts: &[u32; CELLS], facets: &[Facet]) {
-        self.steps.resize(CELLS, [(0, 0); MOST_CORNERS]);
         let mut at = *starts;
-        let mut active: [u32; CELLS] = core::array::from_fn(|k| k as u32);
-        let mut count = self.cells.len();
-        for step in 0..MOST_CORNERS {
+        let mut counts = [0; CELLS];
+        let mut active: [u8; CELLS] = core::array::from_fn(|k| k as u8);
+        let mut count = self.len.min(CELLS);
+        for step in 0..STEPS {
             let mut left = 0;
             for k in 0..count {
-                let i = active[k] as usize;
+                let i = usize::from(active[k]) % CELLS;
                 let edge = at[i];
                 let facet = &facets[(edge >> 2) as usize];
-                self.steps[i][step] = (edge, facet.sites[AFTER[(edge & 3) as usize]]);
-                self.cells[i].count = step + 1;
-                at[i] = turn(facet, edge);
-                active[left] = i as u32;
-                left += usize::from(at[i] != starts[i]);
+                self.steps[i][step] = Step { edge, neighbor: neighbor(facet, edge) };
+                let next = turn(facet, edge);
+                counts[i] = step + 1;
+                at[i] = next;
+                active[left % CELLS] = i as u8;
+                left += usize::from(next != starts[i]);
             }
-            count = left;
+            count = left.min(CELLS);
             if count == 0 {
                 break;
             }
         }
         for &i in &active[..count] {
-            self.cells[i as usize].count = 0;
+            counts[usize::from(i)] = 0;
+        }
+        for (cell, count) in self.cells.iter_mut().zip(counts) {
+            cell.count = count;
         }
     }
 
     /// Sets `all`, and numbers the vertices.
-    fn number(&mut self, starts: &[u32; CELLS], facets: &mut [Facet]) {
-        self.new = 0;
-        let mut end = 0;
-        for i in 0..self.cells.len() {
+    fn number(&mut self, starts: &[u32; CELLS], facets: &mut [Facet], sites: Sites<'_>) {
+        self.count = 0;
+        let mut end = 1;
+        for i in 0..self.len {
             let Around { site, count, .. } = self.cells[i];
             self.marks[site as usize] = self.vertices;
             self.cells[i].start = end;
-            if self.all.len() < end + MOST_CORNERS {
-                self.all.resize(end + MOST_CORNERS, Spoke::default());
-                self.facets.resize(end + MOST_CORNERS, [0; 3]);
-            }
+            self.reserve(end + STEPS + 1);
             let first = starts[i];
             let mut before = facets[(first >> 2) as usize].sites[(first & 3) as usize];
             if count > 0 {
-                for step in 0..count {
-                    let (edge, neighbor) = self.steps[i][step];
-                    self.add(end + step, site, before, neighbor, edge, &mut facets[(edge >> 2) as usize]);
+                for k in 0..count {
+                    let Step { edge, neighbor } = self.steps[i][k];
+                    self.add(end, site, before, neighbor, edge, &mut facets[(edge >> 2) as usize], sites);
                     before = neighbor;
+                    end += 1;
                 }
-                end += count;
-                continue;
+            } else {
+                let mut edge = first;
+                loop {
+                    self.reserve(end + 2);
+                    let facet = &mut facets[(edge >> 2) as usize];
+                    let (neighbor, next) = (neighbor(facet, edge), turn(facet, edge));
+                    self.add(end, site, before, neighbor, edge, facet, sites);
+                    (before, edge) = (neighbor, next);
+                    end += 1;
+                    if edge == first {
+                        break;
+                    }
+                }
+                self.cells[i].count = end - self.cells[i].start;
             }
-            let mut edge = first;
-            loop {
-                if self.all.len() == end {
-                    self.all.push(Spoke::default());
-                    self.facets.push([0; 3]);
-                }
-                let facet = &mut facets[(edge >> 2) as usize];
-                let neighbor = facet.sites[AFTER[(edge & 3) as usize]];
-                let next = turn(facet, edge);
-                self.add(end, site, before, neighbor, edge, facet);
-                end += 1;
-                (before, edge) = (neighbor, next);
-                if edge == first {
-                    break;
-                }
-            }
-            self.cells[i].count = end - self.cells[i].start;
+            let start = self.cells[i].start;
+            self.all[end] = Spoke { edge: NONE, ..self.all[start] };
+            self.offsets[end] = self.offsets[start];
+            end += 1;
+        }
+        self.all.truncate(end);
+    }
+
+    /// Has room for `len` spokes.
+    #[inline(always)]
+    fn reserve(&mut self, len: usize) {
+        if self.all.len() < len {
+            self.all.resize(len, Spoke::default());
+        }
+        if self.offsets.len() < len {
+            self.offsets.resize(len, DVec3::ZERO);
+            self.new.resize(len, New::default());
         }
     }
 
+    #[allow(clippy::too_many_arguments, reason = "to be inlined")]
     #[inline(always)]
-    fn add(&mut self, at: usize, site: u32, before: u32, neighbor: u32, edge: u32, facet: &mut Facet) {
-        let lowest = site.min(before).min(neighbor);
-        let is_new = lowest == site;
+    fn add(
+        &mut self,
+        at: usize,
+        site: u32,
+        before: u32,
+        neighbor: u32,
+        edge: u32,
+        facet: &mut Facet,
+        sites: Sites<'_>,
+    ) {
+        let is_new = site < before.min(neighbor);
         let vertex = if is_new { self.vertices } else { facet.mark };
         facet.mark = vertex;
-        self.all[at] = Spoke { edge, neighbor, vertex, lowest };
-        self.facets[self.new] = [site, before, neighbor];
-        self.new += usize::from(is_new);
+        let lowest = if is_new { 0 } else { at as u32 + u32::from(neighbor < before) };
+        self.all[at] = Spoke { edge, before, vertex, lowest };
+        self.offsets[at] = sites.offset(before, site);
+        self.new[self.count] = New { site, spoke: at as u32 };
+        self.count += usize::from(is_new);
         self.vertices += u32::from(is_new);
     }
 
-    /// The sites of each vertex that these cells meet first, and the number of the first of them.
-    pub fn new_facets(&self) -> (usize, &[[u32; 3]]) {
-        (self.vertices as usize - self.new, &self.facets[..self.new])
+    /// The vertices that these cells meet first, and the number of the first of them.
+    pub fn new_vertices(&self) -> (usize, &[New]) {
+        (self.vertices as usize - self.count, &self.new[..self.count])
     }
 
-    /// Calls `visit` with each vertex and the lowest of its sites.
-    pub fn each_vertex(&self, mut visit: impl FnMut(usize, u32)) {
+    /// Calls `visit` with the vertices that each site met first.
+    pub fn each_lowest(&self, mut visit: impl FnMut(u32, core::ops::Range<usize>)) {
         let mut end = self.vertices;
         for (site, &first) in self.marks.iter().enumerate().rev().filter(|(_, first)| **first != NONE) {
-            (first..end).for_each(|vertex| visit(vertex as usize, site as u32));
+            visit(site as u32, first as usize..end as usize);
             end = first;
         }
     }
