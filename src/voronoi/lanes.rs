@@ -67,12 +67,9 @@ impl Lanes {
         }
     }
 
-    /// The corner less the site.
-    #[inline(always)]
-    pub fn set_offset(&mut self, lane: usize, offset: DVec3) {
-        for (column, offset) in self.offset.iter_mut().zip(offset.to_array()) {
-            column[lane] = offset;
-        }
+    /// The corners less their sites, or NaN if these are not ordinary ones.
+    pub fn offsets(&mut self, count: usize) -> [&mut [f64]; 3] {
+        self.offset.each_mut().map(|column| &mut column[..count])
     }
 
     /// Computes the edges from the first `count` corners, but for the last of a cell, which mean nothing.
@@ -135,8 +132,8 @@ impl Lanes {
         }
     }
 
-    /// Solid angle and vector moment of the cell of the `count` corners from `start` on, unless it is thin or has edges of no
-    /// sure length.
+    /// Solid angle and vector moment of the cell of the `count` corners from `start` on, unless it is thin, or has edges
+    /// of no sure length or corners that are not ordinary.
     #[inline(always)]
     pub fn cell(&self, start: usize, count: usize) -> Option<(f64, DVec3)> {
         let (mut half_angle, mut moment, mut reach) = (0.0, DVec3::ZERO, 0.0);
@@ -147,7 +144,8 @@ impl Lanes {
         }
         let solid_angle = if self.has_small_tangents { 2.0 * half_angle } else { self.solid_angle(start, count) };
         let has_lengths = self.has_lengths || (start..start + count).all(|k| self.chord[k] > self.square[k] * SURE);
-        (has_lengths && !is_thin(solid_angle, reach)).then_some((solid_angle, 0.5 * moment))
+        let good = solid_angle >= 0.0 && has_lengths && !is_thin(solid_angle, reach);
+        good.then_some((solid_angle, 0.5 * moment))
     }
 
     #[inline(never)]

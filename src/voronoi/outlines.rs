@@ -29,8 +29,8 @@ pub(super) struct Outlines {
     spokes: Spokes,
     batch: Box<Batch>,
     lanes: Box<Lanes>,
-    neighbors: Vec<u32>,
-    vertices: Vec<u32>,
+    /// Neighbours and vertices.
+    written: Vec<(u32, u32)>,
     /// Of one cell.
     edges: Vec<Edge>,
     classes: Vec<Class>,
@@ -103,7 +103,7 @@ impl Outlines {
             let mut start = walk.diagram.neighbors.len();
             for k in 0..self.spokes.cells().len() {
                 let around = self.spokes.cells()[k];
-                if let Some((solid_angle, vector_moment)) = self.ordinary_cell(around, walk) {
+                if let Some((solid_angle, vector_moment)) = self.ordinary_cell(around) {
                     walk.finish(around.site, start, start + around.count, solid_angle, vector_moment);
                     start += around.count;
                 } else {
@@ -154,8 +154,10 @@ impl Outlines {
         for &Around { site, start, count } in self.spokes.cells() {
             self.lanes.set_site(start, start + count, walk.sites.unit(site));
         }
-        for (lane, spoke) in all.iter().enumerate().skip(1) {
-            self.lanes.set_offset(lane, walk.hull.planes[spoke.vertex as usize] + offsets[spoke.lowest as usize]);
+        let (planes, [x, y, z]) = (&walk.hull.planes[..], self.lanes.offsets(all.len()));
+        for (((spoke, x), y), z) in all.iter().zip(x).zip(y).zip(z) {
+            let offset = planes[spoke.vertex as usize] + offsets[spoke.lowest as usize];
+            (*x, *y, *z) = (offset.x, offset.y, offset.z);
         }
         self.lanes.compute(all.len());
     }
@@ -163,11 +165,8 @@ impl Outlines {
     /// Solid angle and vector moment of a cell of ordinary corners above the horizon, unless it is thin or has edges that
     /// may have no length.
     #[inline(always)]
-    fn ordinary_cell(&self, around: Around, walk: &Walk<'_>) -> Option<(f64, DVec3)> {
-        let spokes = &self.spokes.all[around.start..around.start + around.count];
-        let classes = spokes.iter().fold(0, |classes, spoke| classes | walk.classes[spoke.vertex as usize]);
-        let is_ordinary = classes == ABOVE && self.spokes.all.len() <= LANES;
-        is_ordinary.then(|| self.lanes.cell(around.start, around.count)).flatten()
+    fn ordinary_cell(&self, around: Around) -> Option<(f64, DVec3)> {
+        (self.spokes.all.len() <= LANES).then(|| self.lanes.cell(around.start, around.count)).flatten()
     }
 
     /// Writes down the outlines of ordinary cells.
@@ -175,20 +174,20 @@ impl Outlines {
     fn write(&mut self, spokes: Range<usize>, walk: &mut Walk<'_>) {
         let Walk { sites, diagram: Diagram { owners, neighbors, vertex_indices, .. }, .. } = walk;
         let spokes = &self.spokes.all[spokes];
-        self.neighbors.resize(spokes.len().max(self.neighbors.len()), 0);
-        self.vertices.resize(spokes.len().max(self.vertices.len()), 0);
+        self.written.resize(spokes.len().max(self.written.len()), (0, 0));
+        let written = &mut self.written[..spokes.len()];
         let mut count = 0;
-        for pair in spokes.windows(2) {
-            let [spoke, after] = pair else { continue };
-            self.vertices[count] = spoke.vertex;
-            self.neighbors[count] = sites.index(after.before) as u32;
+        for (spoke, after) in spokes.iter().zip(spokes.iter().skip(1)) {
+            written[count] = (sites.index(after.before) as u32, spoke.vertex);
+            // No branch.
             count += usize::from(spoke.edge != spokes::NONE);
         }
+        let written = &mut written[..count];
         if !owners.is_empty() {
-            self.neighbors[..count].iter_mut().for_each(|name| *name = owners[*name as usize]);
+            written.iter_mut().for_each(|(name, _)| *name = owners[*name as usize]);
         }
-        neighbors.extend_from_slice(&self.neighbors[..count]);
-        vertex_indices.extend_from_slice(&self.vertices[..count]);
+        neighbors.extend(written.iter().map(|(name, _)| *name));
+        vertex_indices.extend(written.iter().map(|(_, vertex)| *vertex));
     }
 
     /// Adds a cell some of whose corners or edges need more than ordinary ones do.
@@ -234,7 +233,8 @@ impl Outlines {
             let [spoke, after] = pair else { continue };
             let offset = walk.hull.planes[spoke.vertex as usize] + self.spokes.offsets[spoke.lowest as usize];
             let mark = walk.classes[spoke.vertex as usize];
-            let (square, class, is_flat) = (offset.length_squared(), mark & CLASSES, mark >> (FLAT + (spoke.edge & 3)) & 1 != 0);
+            let (square, class, is_flat) =
+                (offset.length_squared(), mark & CLASSES, mark >> (FLAT + (spoke.edge & 3)) & 1 != 0);
             let (vertex, edge, neighbor) = (spoke.vertex, spoke.edge, after.before);
             self.edges.push(Edge { offset, square, class, vertex, edge, neighbor, is_flat });
             classes |= class;

@@ -165,38 +165,57 @@ impl Spokes {
         for i in 0..self.len {
             let Around { site, count, .. } = self.cells[i];
             self.marks[site as usize] = self.vertices;
-            self.cells[i].start = end;
-            self.reserve(end + STEPS + 1);
-            let first = starts[i];
-            let mut before = facets[(first >> 2) as usize].sites[(first & 3) as usize];
+            let start = end;
+            self.reserve(start + STEPS + 1);
+            let steps = self.steps[i];
             if count > 0 {
-                for k in 0..count {
-                    let Step { edge, neighbor } = self.steps[i][k];
-                    self.add(end, site, before, neighbor, edge, &mut facets[(edge >> 2) as usize], sites);
-                    before = neighbor;
-                    end += 1;
-                }
+                self.add(start, site, &steps[..count.min(STEPS)], facets, sites);
+                end += count;
             } else {
-                let mut edge = first;
+                let mut edge = starts[i];
                 loop {
                     self.reserve(end + 2);
-                    let facet = &mut facets[(edge >> 2) as usize];
-                    let (neighbor, next) = (neighbor(facet, edge), turn(facet, edge));
-                    self.add(end, site, before, neighbor, edge, facet, sites);
-                    (before, edge) = (neighbor, next);
+                    let facet = &facets[(edge >> 2) as usize];
+                    let next = turn(facet, edge);
+                    self.add(end, site, &[Step { edge, neighbor: neighbor(facet, edge) }], facets, sites);
                     end += 1;
-                    if edge == first {
+                    edge = next;
+                    if edge == starts[i] {
                         break;
                     }
                 }
-                self.cells[i].count = end - self.cells[i].start;
             }
-            let start = self.cells[i].start;
+            self.cells[i] = Around { site, start, count: end - start };
             self.all[end] = Spoke { edge: NONE, ..self.all[start] };
             self.offsets[end] = self.offsets[start];
             end += 1;
         }
         self.all.truncate(end);
+    }
+
+    /// Adds the spokes of `steps` around a site, from `start` on.
+    #[inline(always)]
+    fn add(&mut self, start: usize, site: u32, steps: &[Step], facets: &mut [Facet], sites: Sites<'_>) {
+        let range = start..start + steps.len();
+        let (all, offsets) = (&mut self.all[range.clone()], &mut self.offsets[range]);
+        let new = &mut self.new[self.count..][..steps.len()];
+        let (mut at, mut count, vertices) = (start as u32, 0, self.vertices);
+        for ((&Step { edge, neighbor }, spoke), offset) in steps.iter().zip(all).zip(offsets) {
+            let facet = &mut facets[(edge >> 2) as usize];
+            let before = facet.sites[(edge & 3) as usize];
+            // Which are new is a matter of chance: no branch.
+            let is_new = u32::from(site < before.min(neighbor));
+            let old = is_new.wrapping_sub(1);
+            let vertex = facet.mark & old | (vertices + count as u32) & !old;
+            facet.mark = vertex;
+            *spoke = Spoke { edge, before, vertex, lowest: (at + u32::from(neighbor < before)) & old };
+            *offset = sites.offset(before, site);
+            new[count] = New { site, spoke: at };
+            count += is_new as usize;
+            at += 1;
+        }
+        self.count += count;
+        self.vertices += count as u32;
     }
 
     /// Has room for `len` spokes.
@@ -209,29 +228,6 @@ impl Spokes {
             self.offsets.resize(len, DVec3::ZERO);
             self.new.resize(len, New::default());
         }
-    }
-
-    #[allow(clippy::too_many_arguments, reason = "to be inlined")]
-    #[inline(always)]
-    fn add(
-        &mut self,
-        at: usize,
-        site: u32,
-        before: u32,
-        neighbor: u32,
-        edge: u32,
-        facet: &mut Facet,
-        sites: Sites<'_>,
-    ) {
-        let is_new = site < before.min(neighbor);
-        let vertex = if is_new { self.vertices } else { facet.mark };
-        facet.mark = vertex;
-        let lowest = if is_new { 0 } else { at as u32 + u32::from(neighbor < before) };
-        self.all[at] = Spoke { edge, before, vertex, lowest };
-        self.offsets[at] = sites.offset(before, site);
-        self.new[self.count] = New { site, spoke: at as u32 };
-        self.count += usize::from(is_new);
-        self.vertices += u32::from(is_new);
     }
 
     /// The vertices that these cells meet first, and the number of the first of them.
