@@ -1,4 +1,4 @@
-//! Solid angles and vector moments of ordinary cells, edge by edge: both cells of an edge share the work.
+//! Solid angles and vector moments of ordinary cells, edge by edge.
 //!
 //! # Model
 //! A cell with corners near its site u is the fan of triangles (u, c, c′) over its edges. With d, e the corners less u,
@@ -24,7 +24,7 @@ impl Default for Sum {
     }
 }
 
-/// What both sites share of an edge.
+/// What an edge adds to a cell.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Side {
     tangent: f64,

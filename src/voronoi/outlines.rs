@@ -2,35 +2,33 @@
 //!
 //! # Model
 //! A cell's corners are the facets around its site. A corner is held as its difference from the lowest of its sites until all
-//! cells are done. Most cells are measured edge by edge, some cells at a time; others one by one.
-
-use core::ops::Range;
+//! cells are done. Ordinary cells are measured some at a time, others here, one by one.
 
 use glam::DVec3;
 
 use super::HORIZON;
 use super::clip::{Cell, View};
-use super::corner::{self, ABOVE, BELOW, Batch, Class, SET, SPECIAL};
+use super::corner::{ABOVE, BELOW, Batch, Class, SET, SPECIAL};
 use super::diagram::{Diagram, NO_VERTEX, Record};
 use super::hull::{Facet, Hull, Shape};
-use super::lanes::{LANES, Lanes, SURE_LENGTH};
+use super::lanes::{Lanes, SURE_LENGTH};
 use super::measure::{Corner, is_thin, measure};
 use super::ordinary::{Side, Sum};
 use super::predicate::orientation;
 use super::ray::Ray;
 use super::shared::Shared;
 use super::sites::Sites;
-use super::spokes::{self, Around, New, Spokes};
+use super::spokes::{Around, Spokes};
 
 /// What the walk works with, to be used again.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Outlines {
     /// Of some cells at a time.
-    spokes: Spokes,
-    batch: Box<Batch>,
-    lanes: Box<Lanes>,
+    pub spokes: Spokes,
+    pub batch: Box<Batch>,
+    pub lanes: Box<Lanes>,
     /// Neighbours and vertices.
-    written: Vec<(u32, u32)>,
+    pub written: Vec<(u32, u32)>,
     /// Of one cell.
     edges: Vec<Edge>,
     classes: Vec<Class>,
@@ -59,13 +57,13 @@ struct Edge {
 }
 
 /// The parts of a diagram under construction.
-struct Walk<'a> {
-    hull: &'a mut Hull,
+pub(super) struct Walk<'a> {
+    pub hull: &'a mut Hull,
     /// Of all vertices.
-    classes: Vec<Class>,
-    sites: Sites<'a>,
-    pole: Option<&'a Ray>,
-    diagram: &'a mut Diagram,
+    pub classes: Vec<Class>,
+    pub sites: Sites<'a>,
+    pub pole: Option<&'a Ray>,
+    pub diagram: &'a mut Diagram,
 }
 
 impl Outlines {
@@ -91,108 +89,9 @@ impl Outlines {
         self.classes = walk.classes;
     }
 
-    fn add_cells(&mut self, walk: &mut Walk<'_>) {
-        self.spokes.reset(&walk.hull.facets, walk.sites.len());
-        walk.classes.clear();
-        walk.classes.resize(walk.hull.facets.len(), SPECIAL);
-        while self.spokes.next(&mut walk.hull.facets, walk.sites) {
-            self.set_vertices(walk);
-            self.set_lanes(walk);
-            // Ordinary cells wait for others, in order to be written down together.
-            let mut waiting = 1;
-            let mut start = walk.diagram.neighbors.len();
-            for k in 0..self.spokes.cells().len() {
-                let around = self.spokes.cells()[k];
-                if let Some((solid_angle, vector_moment)) = self.ordinary_cell(around) {
-                    walk.finish(around.site, start, start + around.count, solid_angle, vector_moment);
-                    start += around.count;
-                } else {
-                    self.write(waiting..around.start, walk);
-                    self.add_uneven_cell(around, walk);
-                    waiting = around.start + around.count + 1;
-                    start = walk.diagram.neighbors.len();
-                }
-            }
-            self.write(waiting..self.spokes.all.len(), walk);
-        }
-        let Walk { hull, classes, sites, .. } = walk;
-        self.spokes.each_lowest(|site, vertices| {
-            let unit = sites.unit(site);
-            for (corner, class) in hull.planes[vertices.clone()].iter_mut().zip(&classes[vertices]) {
-                *corner += if class & CLASSES == ABOVE { unit } else { DVec3::ZERO };
-            }
-        });
-    }
-
-    /// Computes the corners that no cell has met before.
-    fn set_vertices(&mut self, walk: &mut Walk<'_>) {
-        let pole = walk.pole.map(|pole| pole.unit);
-        let Spokes { all, offsets, .. } = &self.spokes;
-        let (mut vertex, new) = self.spokes.new_vertices();
-        for new in new.chunks(corner::BATCH) {
-            for (lane, &New { site, spoke }) in new.iter().enumerate() {
-                self.batch.load(lane, walk.sites.unit(site), offsets[spoke as usize], offsets[spoke as usize + 1]);
-            }
-            self.batch.compute(new.len(), pole);
-            for (lane, new) in new.iter().enumerate() {
-                (walk.classes[vertex], walk.hull.planes[vertex]) = self.batch.corner(lane).unwrap_or_else(|| {
-                    let edge = all[new.spoke as usize].edge;
-                    let [a, b, c] = walk.hull.facets[(edge >> 2) as usize].sites;
-                    corner::from_all_sites([[c, a, b], [a, b, c], [b, c, a]][(edge & 3) as usize], walk.sites, pole)
-                });
-                vertex += 1;
-            }
-        }
-    }
-
-    /// Measures all cells as if they were ordinary ones, unless they have too many corners.
-    fn set_lanes(&mut self, walk: &Walk<'_>) {
-        let Spokes { all, offsets, .. } = &self.spokes;
-        if all.len() > LANES {
-            return;
-        }
-        for &Around { site, start, count } in self.spokes.cells() {
-            self.lanes.set_site(start, start + count, walk.sites.unit(site));
-        }
-        let (planes, [x, y, z]) = (&walk.hull.planes[..], self.lanes.offsets(all.len()));
-        for (((spoke, x), y), z) in all.iter().zip(x).zip(y).zip(z) {
-            let offset = planes[spoke.vertex as usize] + offsets[spoke.lowest as usize];
-            (*x, *y, *z) = (offset.x, offset.y, offset.z);
-        }
-        self.lanes.compute(all.len());
-    }
-
-    /// Solid angle and vector moment of a cell of ordinary corners above the horizon, unless it is thin or has edges that
-    /// may have no length.
-    #[inline(always)]
-    fn ordinary_cell(&self, around: Around) -> Option<(f64, DVec3)> {
-        (self.spokes.all.len() <= LANES).then(|| self.lanes.cell(around.start, around.count)).flatten()
-    }
-
-    /// Writes down the outlines of ordinary cells.
-    #[inline(always)]
-    fn write(&mut self, spokes: Range<usize>, walk: &mut Walk<'_>) {
-        let Walk { sites, diagram: Diagram { owners, neighbors, vertex_indices, .. }, .. } = walk;
-        let spokes = &self.spokes.all[spokes];
-        self.written.resize(spokes.len().max(self.written.len()), (0, 0));
-        let written = &mut self.written[..spokes.len()];
-        let mut count = 0;
-        for (spoke, after) in spokes.iter().zip(spokes.iter().skip(1)) {
-            written[count] = (sites.index(after.before) as u32, spoke.vertex);
-            // No branch.
-            count += usize::from(spoke.edge != spokes::NONE);
-        }
-        let written = &mut written[..count];
-        if !owners.is_empty() {
-            written.iter_mut().for_each(|(name, _)| *name = owners[*name as usize]);
-        }
-        neighbors.extend(written.iter().map(|(name, _)| *name));
-        vertex_indices.extend(written.iter().map(|(_, vertex)| *vertex));
-    }
-
     /// Adds a cell some of whose corners or edges need more than ordinary ones do.
     #[inline(never)]
-    fn add_uneven_cell(&mut self, around: Around, walk: &mut Walk<'_>) {
+    pub fn add_uneven_cell(&mut self, around: Around, walk: &mut Walk<'_>) {
         let site = around.site;
         let classes = self.set_edges(around, walk);
         let sum = self.sum_edges(site, walk);
@@ -400,7 +299,7 @@ impl Walk<'_> {
 
     /// Writes down the cell of `site`, whose outline starts at `start`.
     #[inline(always)]
-    fn finish(&mut self, site: u32, start: usize, end: usize, solid_angle: f64, vector_moment: DVec3) {
+    pub fn finish(&mut self, site: u32, start: usize, end: usize, solid_angle: f64, vector_moment: DVec3) {
         let name = self.name(site) as usize;
         let count = (end - start) as u32;
         self.diagram.records[name] = Record { place: site, start: start as u32, count };
@@ -476,5 +375,5 @@ const NARROW: f64 = 1.0 / 64.0;
 const ABOVE_AND_BELOW: Class = ABOVE | BELOW;
 
 /// The bits of a facet's mark: the class of its corner, `SET`, and, from `FLAT` on, which of its edges have no length.
-const CLASSES: Class = ABOVE | BELOW | SPECIAL;
+pub(super) const CLASSES: Class = ABOVE | BELOW | SPECIAL;
 const FLAT: u32 = 4;
