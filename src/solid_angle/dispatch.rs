@@ -12,14 +12,14 @@ pub(super) use fused::Fused;
 
 /// A computation that is generic over its arithmetic; `run` and what it calls are `#[inline(always)]`, so that they
 /// are compiled with the features of their caller.
-pub(super) trait Kernel {
+pub(crate) trait Kernel {
     type Output;
     fn run<T: Real>(self) -> Self::Output;
 }
 
 /// `kernel`, in the fastest arithmetic of this processor.
 #[inline]
-pub(super) fn run<K: Kernel>(kernel: K) -> K::Output {
+pub(crate) fn run<K: Kernel>(kernel: K) -> K::Output {
     #[cfg(target_arch = "x86_64")]
     if has_registers() {
         // SAFETY: the processor has what the function is compiled for.

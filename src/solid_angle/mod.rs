@@ -65,7 +65,7 @@ mod argument;
 mod bounded;
 mod check;
 mod contour;
-mod dispatch;
+pub(crate) mod dispatch;
 mod double;
 mod error;
 mod exact;
@@ -88,6 +88,7 @@ use glam::DVec3;
 
 pub use bounded::{Bounded, polygon_bounded, signed_polygon_bounded};
 pub use check::UNIT_TOLERANCE;
+pub(crate) use double::Real;
 pub use error::SolidAngleError;
 pub use geographic::{GEOGRAPHIC_FLOOR, geographic_polygon};
 pub use kernel::{DENOMINATOR_BOUND, NORM_BOUND, NORMALISED_DENOMINATOR_BOUND, NUMERATOR_BOUND, PRODUCT_BOUND};

@@ -7,11 +7,11 @@
 
 use glam::DVec3;
 
-use super::hull::Facet;
 use super::sites::Sites;
+use crate::solid_angle::{Real, dispatch, dispatch::Kernel};
 
 /// Where a corner is, as bits, of which a cell collects those of all its corners.
-pub(super) type Class = u32;
+pub(super) type Class = u8;
 
 /// Certainly above the horizon, or there is none.
 pub(super) const ABOVE: Class = 1;
@@ -35,70 +35,65 @@ const WIDE: f64 = 0.7;
 const NEAR_HORIZON: f64 = 1.0 / (1u64 << 44) as f64;
 
 /// Facets at a time, component by component, so that one instruction does several.
-const BATCH: usize = 16;
+pub(super) const BATCH: usize = 32;
 
 /// The corners of a batch of facets.
-struct Batch<const N: usize> {
+#[derive(Clone, Debug)]
+pub(super) struct Batch<const N: usize = BATCH> {
     /// The first site, the edges from there, and the corner less the site.
     site: [[f64; N]; 3],
     d: [[f64; N]; 3],
     e: [[f64; N]; 3],
     offset: [[f64; N]; 3],
-    /// Component of d × e along the pole, over |d| |e|: its square, with its sign.
-    height: [f64; N],
-    /// Not negative if edges are long enough, and if doubles will do for the rest.
-    length: [f64; N],
-    quality: [f64; N],
+    /// Not negative if the corner is certainly above the horizon and doubles are enough.
+    above: [f64; N],
+    /// Positive if it is certainly below.
+    below: [f64; N],
 }
 
-/// Sets the mark of each facet to the class of its corner, and its plane, if the class is `ABOVE`, to that corner less the
-/// facet's first site.
-pub(super) fn set_corners(facets: &mut [Facet], planes: &mut [DVec3], sites: Sites<'_>, pole: Option<DVec3>) {
-    let mut batch = Batch::<BATCH>::ZERO;
-    for (facets, planes) in facets.chunks_mut(BATCH).zip(planes.chunks_mut(BATCH)) {
-        for (lane, facet) in facets.iter().enumerate() {
-            let [a, b, c] = facet.sites;
-            batch.load(lane, sites.unit(a), sites.offset(b, a), sites.offset(c, a));
+/// The class of a facet's corner, and, if that is `ABOVE`, the corner less the first of its sites, else NaN.
+#[cold]
+pub(super) fn from_all_sites([a, b, c]: [u32; 3], sites: Sites<'_>, pole: Option<DVec3>) -> (Class, DVec3) {
+    let mut batch = Batch::<4>::default();
+    batch.load(0, sites.unit(a), sites.offset(b, a), sites.offset(c, a));
+    batch.load(1, sites.unit(b), sites.offset(c, b), sites.offset(a, b));
+    batch.load(2, sites.unit(c), sites.offset(a, c), sites.offset(b, c));
+    batch.compute(3, pole);
+    for (lane, site) in [a, b, c].into_iter().enumerate() {
+        if let Some((class, offset)) = batch.corner(lane) {
+            return (class, if class == ABOVE { offset + sites.offset(site, a) } else { offset });
         }
-        batch.compute(pole.unwrap_or(DVec3::ZERO));
-        for (lane, (facet, plane)) in facets.iter_mut().zip(planes).enumerate() {
-            let corner = batch.corner(lane, pole.is_some());
-            let (class, offset) = corner.unwrap_or_else(|| from_other_sites(facet.sites, sites, pole));
-            facet.mark = class;
-            if class == ABOVE {
-                *plane = offset;
-            }
-        }
+    }
+    (SPECIAL, DVec3::NAN)
+}
+
+/// The first `count` corners of a batch, and up to three more.
+struct Compute<'a, const N: usize> {
+    batch: &'a mut Batch<N>,
+    count: usize,
+    pole: Option<DVec3>,
+}
+
+impl<const N: usize> Kernel for Compute<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<T: Real>(self) {
+        self.batch.compute_lanes(self.count, self.pole);
     }
 }
 
-/// The corner of a facet that is not one for its first site.
-#[cold]
-fn from_other_sites([a, b, c]: [u32; 3], sites: Sites<'_>, pole: Option<DVec3>) -> (Class, DVec3) {
-    let mut batch = Batch::<2>::ZERO;
-    batch.load(0, sites.unit(b), sites.offset(c, b), sites.offset(a, b));
-    batch.load(1, sites.unit(c), sites.offset(a, c), sites.offset(b, c));
-    batch.compute(pole.unwrap_or(DVec3::ZERO));
-    let corner = |lane, site| {
-        let (class, offset) = batch.corner(lane, pole.is_some())?;
-        Some((class, offset + sites.offset(site, a)))
-    };
-    corner(0, b).or_else(|| corner(1, c)).unwrap_or((SPECIAL, DVec3::ZERO))
+impl<const N: usize> Default for Batch<N> {
+    fn default() -> Self {
+        let zero = [0.0; N];
+        Self { site: [zero; 3], d: [zero; 3], e: [zero; 3], offset: [zero; 3], above: zero, below: zero }
+    }
 }
 
 impl<const N: usize> Batch<N> {
-    const ZERO: Self = Self {
-        site: [[0.0; N]; 3],
-        d: [[0.0; N]; 3],
-        e: [[0.0; N]; 3],
-        offset: [[0.0; N]; 3],
-        height: [0.0; N],
-        length: [0.0; N],
-        quality: [0.0; N],
-    };
-
+    /// The facet with the edges `d`, `e` from its first `site`.
     #[inline(always)]
-    fn load(&mut self, lane: usize, site: DVec3, d: DVec3, e: DVec3) {
+    pub fn load(&mut self, lane: usize, site: DVec3, d: DVec3, e: DVec3) {
         for k in 0..3 {
             self.site[k][lane] = site[k];
             self.d[k][lane] = d[k];
@@ -106,12 +101,19 @@ impl<const N: usize> Batch<N> {
         }
     }
 
-    fn compute(&mut self, pole: DVec3) {
-        for k in 0..N {
+    /// Computes the first `count` corners.
+    pub fn compute(&mut self, count: usize, pole: Option<DVec3>) {
+        dispatch::run(Compute { batch: self, count, pole });
+    }
+
+    #[inline(always)]
+    fn compute_lanes(&mut self, count: usize, pole: Option<DVec3>) {
+        let (has_horizon, pole) = (pole.is_some(), pole.unwrap_or(DVec3::ZERO));
+        for k in 0..count.next_multiple_of(4).min(N) {
             let of = |v: &[[f64; N]; 3]| DVec3::new(v[0][k], v[1][k], v[2][k]);
             let (site, d, e) = (of(&self.site), of(&self.d), of(&self.e));
             let (dd, ee, de, n) = (d.length_squared(), e.length_squared(), d.dot(e), d.cross(e));
-            let (nn, height) = (n.length_squared(), n.dot(pole));
+            let nn = n.length_squared();
             let half = 0.5 / nn;
             let x = d * (ee * (dd - de) * half) + e * (dd * (ee - de) * half);
             let sine_squared = x.length_squared();
@@ -122,22 +124,24 @@ impl<const N: usize> Batch<N> {
                 self.offset[j][k] = offset;
             }
             let product = dd * ee;
-            self.height[k] = height * height.abs() / product;
-            self.length[k] = least(dd, ee) - SHORT * SHORT;
+            let length = least(dd, ee) - SHORT * SHORT;
             let shape = nn - SHARP * SHARP * product;
-            self.quality[k] = least(shape, least(WIDE * WIDE - sine_squared, n.dot(site)));
+            let quality = least(shape, least(WIDE * WIDE - sine_squared, n.dot(site)));
+            // The component of d × e along the pole, over |d| |e|: its square, with its sign.
+            let height = if has_horizon { n.dot(pole) } else { 1.0 };
+            let height = height * height.abs() / product;
+            self.above[k] = least(height - NEAR_HORIZON * NEAR_HORIZON, least(length, quality));
+            self.below[k] = least(-NEAR_HORIZON * NEAR_HORIZON - height, length);
         }
     }
 
-    /// The class and the corner less the site; none if doubles are not enough.
+    /// The class and the corner less the site, or NaN if the class is `BELOW`; none if doubles are not enough.
     #[inline(always)]
-    fn corner(&self, lane: usize, has_horizon: bool) -> Option<(Class, DVec3)> {
-        if has_horizon && self.height[lane] < -NEAR_HORIZON * NEAR_HORIZON && self.length[lane] >= 0.0 {
-            return Some((BELOW, DVec3::ZERO));
+    pub fn corner(&self, lane: usize) -> Option<(Class, DVec3)> {
+        if self.above[lane] >= 0.0 {
+            return Some((ABOVE, DVec3::new(self.offset[0][lane], self.offset[1][lane], self.offset[2][lane])));
         }
-        let uncertain = has_horizon && self.height[lane] < NEAR_HORIZON * NEAR_HORIZON;
-        let good = least(self.length[lane], self.quality[lane]) >= 0.0 && !uncertain;
-        good.then(|| (ABOVE, DVec3::new(self.offset[0][lane], self.offset[1][lane], self.offset[2][lane])))
+        (self.below[lane] > 0.0).then_some((BELOW, DVec3::NAN))
     }
 }
 

@@ -22,7 +22,6 @@
 
 use glam::DVec3;
 
-use super::corner::{SET, SPECIAL};
 use super::error::VoronoiError;
 use super::incircle::in_circle_of_sites;
 use super::insertion::{Buffers, Points, edge, plane};
@@ -189,14 +188,6 @@ impl Hull {
         let facet = &self.facets[(edge >> 2) as usize];
         let across = facet.across[(edge & 3) as usize];
         let other = self.facets[(across >> 2) as usize].sites[(across & 3) as usize];
-        if facet.mark & (SPECIAL | SET) == SPECIAL {
-            // Its plane is there yet.
-            let points = if self.moved.is_empty() { sites.units() } else { &self.moved };
-            let excess = self.planes[(edge >> 2) as usize].dot(points[other as usize]) - 1.0;
-            if excess.abs() > f64::from(facet.error) {
-                return false;
-            }
-        }
         in_circle_of_sites(sites, facet.sites, other) == 0
     }
 }

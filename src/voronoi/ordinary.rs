@@ -1,4 +1,4 @@
-//! Solid angles and vector moments of ordinary cells, edge by edge: both cells of an edge share the work.
+//! Solid angles and vector moments of ordinary cells, edge by edge.
 //!
 //! # Model
 //! A cell with corners near its site u is the fan of triangles (u, c, c′) over its edges. With d, e the corners less u,
@@ -24,7 +24,7 @@ impl Default for Sum {
     }
 }
 
-/// What both sites share of an edge.
+/// What an edge adds to a cell.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Side {
     tangent: f64,
@@ -57,15 +57,8 @@ impl Sum {
         self.moment += side.moment;
     }
 
-    /// Adds an edge with the site on its right; `offset` is the site on the left less this one.
     #[inline(always)]
-    pub fn add_reverse(&mut self, side: &Side, offset: DVec3) {
-        self.turn(side.tangent);
-        self.moment -= side.moment + offset.cross(side.chord);
-    }
-
-    #[inline(always)]
-    fn turn(&mut self, tangent: f64) {
+    pub fn turn(&mut self, tangent: f64) {
         (self.re, self.im) = (self.re - self.im * tangent, self.im + self.re * tangent);
     }
 
@@ -74,10 +67,7 @@ impl Sum {
         if im > SMALL * self.re {
             return 2.0 * atan2(im, self.re);
         }
-        // The series of the arctangent: the first term left out is 2⁻⁶⁰ of the first.
-        let x = im / self.re;
-        let s = x * x;
-        2.0 * (x - x * s * (1.0 / 3.0 - s * (1.0 / 5.0 - s * (1.0 / 7.0 - s * (1.0 / 9.0 - s * (1.0 / 11.0))))))
+        2.0 * small_arctangent(im / self.re)
     }
 
     pub fn vector_moment(&self) -> DVec3 {
@@ -85,8 +75,15 @@ impl Sum {
     }
 }
 
+/// The arctangent of `x` up to `SMALL`: the first term of the series that is left out is 2⁻⁶⁰ of the first.
+#[inline(always)]
+pub(super) fn small_arctangent(x: f64) -> f64 {
+    let s = x * x;
+    x - x * s * (1.0 / 3.0 - s * (1.0 / 5.0 - s * (1.0 / 7.0 - s * (1.0 / 9.0 - s * (1.0 / 11.0)))))
+}
+
 /// Tangents up to here need six terms of the series.
-const SMALL: f64 = 1.0 / 32.0;
+pub(super) const SMALL: f64 = 1.0 / 32.0;
 
 /// θ / sin θ − 1 of the arc with sin²(θ/2) = `s`, for `s` < 3/4 (θ < 2π/3).
 ///
@@ -94,18 +91,23 @@ const SMALL: f64 = 1.0 / 32.0;
 /// than 2⁻⁵⁶ of the first, up to 1/128 8 do, and 4 up to 2⁻¹⁴. Beyond, the arc itself.
 #[inline(always)]
 pub(super) fn arc_over_sine_less_one(s: f64) -> f64 {
-    if s <= 1.0 / 16384.0 {
+    if s <= FEW_TERMS {
         power_series(s, &COEFFICIENTS[..4])
-    } else if s <= 0.007_812_5 {
+    } else if s <= SOME_TERMS {
         power_series(s, &COEFFICIENTS[..8])
     } else {
         of_long_arc(s)
     }
 }
 
+/// Up to which arguments 4, 8 and all 14 terms do.
+pub(super) const FEW_TERMS: f64 = 1.0 / 16384.0;
+pub(super) const SOME_TERMS: f64 = 1.0 / 128.0;
+pub(super) const ALL_TERMS: f64 = 1.0 / 16.0;
+
 #[inline(never)]
 fn of_long_arc(s: f64) -> f64 {
-    if s <= 0.0625 {
+    if s <= ALL_TERMS {
         power_series(s, &COEFFICIENTS)
     } else {
         let half_sine = (s * (1.0 - s)).sqrt();
@@ -114,12 +116,12 @@ fn of_long_arc(s: f64) -> f64 {
 }
 
 #[inline(always)]
-fn power_series(s: f64, coefficients: &[f64]) -> f64 {
+pub(super) fn power_series(s: f64, coefficients: &[f64]) -> f64 {
     s * coefficients.iter().rev().fold(0.0, |series, coefficient| coefficient + s * series)
 }
 
 /// 2/3, 2/3·4/5, …
-const COEFFICIENTS: [f64; 14] = {
+pub(super) const COEFFICIENTS: [f64; 14] = {
     let mut coefficients = [2.0 / 3.0; 14];
     let mut k = 1;
     while k < 14 {
