@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use glam::DVec3;
 
-use super::corner::{self, ABOVE, SPECIAL};
+use super::corner::{self, ABOVE};
 use super::diagram::Diagram;
 use super::lanes::LANES;
 use super::outlines::{CLASSES, Outlines, Walk};
