@@ -74,7 +74,7 @@ impl Outlines {
             self.lanes.set_site(start, start + count, walk.sites.unit(site));
         }
         let (planes, [x, y, z]) = (&walk.hull.planes[..], self.lanes.offsets(all.len()));
-        for (((spoke, x), y), z) in all.iter().zip(x).zip(y).zip(z) {
+        for (((spoke, x), y), z) in all.iter().skip(1).zip(x).zip(y).zip(z) {
             let offset = planes[spoke.vertex as usize] + offsets[spoke.lowest as usize];
             (*x, *y, *z) = (offset.x, offset.y, offset.z);
         }

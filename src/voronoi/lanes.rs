@@ -67,9 +67,9 @@ impl Lanes {
         }
     }
 
-    /// The corners less their sites, or NaN if these are not ordinary ones.
+    /// From the second of `count` lanes on: the corners less their sites, or NaN if these are not ordinary ones.
     pub fn offsets(&mut self, count: usize) -> [&mut [f64]; 3] {
-        self.offset.each_mut().map(|column| &mut column[..count])
+        self.offset.each_mut().map(|column| &mut column[1..count])
     }
 
     /// Computes the edges from the first `count` corners, but for the last of a cell, which mean nothing.
