@@ -44,6 +44,69 @@ proptest! {
     }
 }
 
+/// Found by fuzzing: a cell that ends just below the horizon was taken for wrong.
+///
+/// Cell 8 is 10⁻¹⁷ sr of the sphere in a strip as long as a right angle. It has nothing above the horizon, which integers
+/// decide, though the slow cells see 10⁻¹⁸ sr there: its planes are known to thirty digits, over that length.
+#[test]
+fn a_long_cell_below_the_horizon_is_empty_above() {
+    let sites = [
+        DVec3::new(-0.05471831568245991, 0.5537391981516699, -0.8308903696392324),
+        DVec3::new(-0.054718315682459946, 0.55373919815167, -0.8308903696392324),
+        DVec3::new(-0.05471831568245996, 0.5537391981516699, -0.8308903696392324),
+        DVec3::new(-0.05471831568245996, 0.5537391981516699, -0.8308903696392324),
+        DVec3::new(-0.054718315682459925, 0.5537391981516698, -0.8308903696392325),
+        DVec3::new(-0.05471831568245987, 0.5537391981516699, -0.8308903696392326),
+        DVec3::new(-0.05471831568245991, 0.5537391981516699, -0.8308903696392326),
+        DVec3::new(-0.054718315682459905, 0.5537391981516699, -0.8308903696392324),
+        DVec3::new(-0.05471831568245987, 0.5537391981516699, -0.8308903696392325),
+        DVec3::new(-0.05471831568245987, 0.5537391981516699, -0.8308903696392324),
+        DVec3::new(-0.054718315682459884, 0.5537391981516699, -0.8308903696392324),
+        DVec3::new(-0.05471831568245989, 0.5537391981516699, -0.8308903696392324),
+    ];
+    laws::slow(&sites, None);
+    laws::slow(&sites, Some(DVec3::Z));
+    let whole = laws::diagram(&sites, None);
+    assert_eq!(whole.cell(8).neighbors(), [11, 10, 9, 5, 6, 0, 7]);
+    let dome = laws::diagram(&sites, Some(DVec3::Z));
+    assert_eq!((dome.cell(8).solid_angle(), dome.cell(8).neighbors()), (0.0, &[][..]));
+}
+
+/// Found by fuzzing: sites a few units in the last place apart, and the antipodes of two, one of which is the pole.
+///
+/// Cells are strips of 10⁻¹⁷ sr or specks of 10⁻³³ sr, between planes that cross at 10⁻¹⁶: differences of corners in
+/// doubles make nothing of them.
+#[test]
+fn strips_and_specks_between_sites_of_few_ulps_keep_their_digits() {
+    let sites = [
+        DVec3::new(0.8197943241617016, -0.041618798030229144, -0.5711437137207919),
+        DVec3::new(0.8197943241617016, -0.04161879803022925, -0.5711437137207919),
+        DVec3::new(0.8197943241617015, -0.04161879803022914, -0.5711437137207918),
+        DVec3::new(0.8197943241617017, -0.041618798030229116, -0.5711437137207918),
+        DVec3::new(0.8197943241617015, -0.04161879803022913, -0.5711437137207916),
+        DVec3::new(0.8197943241617016, -0.041618798030229116, -0.5711437137207919),
+        DVec3::new(0.8197943241617016, -0.04161879803022914, -0.5711437137207916),
+        DVec3::new(0.8197943241617016, -0.04161879803022909, -0.5711437137207918),
+        DVec3::new(0.8197943241617015, -0.04161879803022921, -0.5711437137207918),
+        DVec3::new(0.8197943241617015, -0.04161879803022915, -0.5711437137207918),
+        DVec3::new(0.8197943241617016, -0.041618798030229144, -0.5711437137207919),
+        DVec3::new(0.8197943241617016, -0.041618798030229144, -0.5711437137207916),
+        DVec3::new(0.8197943241617016, -0.041618798030229096, -0.5711437137207918),
+        DVec3::new(0.8197943241617015, -0.04161879803022922, -0.5711437137207918),
+        DVec3::new(0.8197943241617016, -0.04161879803022916, -0.5711437137207919),
+        DVec3::new(0.8197943241617016, -0.0416187980302291, -0.5711437137207916),
+        DVec3::new(0.8197943241617017, -0.04161879803022925, -0.5711437137207918),
+        DVec3::new(0.8197943241617015, -0.04161879803022909, -0.5711437137207918),
+        DVec3::new(-0.8197943241617016, 0.041618798030229116, 0.5711437137207919),
+        DVec3::new(-0.8197943241617016, 0.04161879803022925, 0.5711437137207919),
+    ];
+    laws::slow(&sites, None);
+    laws::slow(&sites, Some(sites[19]));
+    let whole = laws::diagram(&sites, None);
+    let is_tiny = |&&solid_angle: &&f64| solid_angle > 0.0 && solid_angle < 1e-16;
+    assert_eq!(whole.solid_angles().iter().filter(is_tiny).count(), 10, "{:?}", whole.solid_angles());
+}
+
 /// The slow cells against the 512 bits of the oracle, for they judge others.
 #[test]
 fn slow_cells_are_right() {
