@@ -12,7 +12,8 @@
 //! # Source
 //!
 //! Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates", 1997, theorem 10
-//! (grow-expansion).
+//! (grow-expansion); Joldes, Muller and Popescu, "Tight and rigorous error bounds for basic building blocks of double-word
+//! arithmetic", 2017, theorem 3.1 (the sum of two double-length numbers).
 
 use super::double::Double;
 
@@ -87,12 +88,21 @@ pub(super) fn determinant(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> Double {
     sum.round()
 }
 
-/// a×b, each component with a relative error of a few u².
+/// a×b, each component with a relative error of 3 u²: the sum of two double-length numbers has no more.
 pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [Double; 3] {
-    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| {
+    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| Double::product(a[i], b[j]) - Double::product(a[j], b[i]))
+}
+
+/// (a×b)×n, each component with a relative error of a few u².
+#[cold]
+#[inline(never)]
+pub(super) fn double_cross(n: [f64; 3], a: [f64; 3], b: [f64; 3]) -> [Double; 3] {
+    [(0, 1, 2), (1, 2, 0), (2, 0, 1)].map(|(i, j, k)| {
         let mut sum = Expansion::zero();
-        sum.add_product(a[i], b[j]);
-        sum.add_product(-a[j], b[i]);
+        for l in [j, k] {
+            sum.add_triple(n[l], a[l], b[i]);
+            sum.add_triple(-n[l], b[l], a[i]);
+        }
         sum.round()
     })
 }

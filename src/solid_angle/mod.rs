@@ -17,7 +17,7 @@
 //!
 //! 1. Solid angles are within [`ANGLE_BOUND`] of the exact value of the given doubles, from 1e-240 sr to 4π, needles and
 //!    edges that are nearly half turns included: tests/solid_angle_oracle.rs.
-//!    Ten thousand polygons of each of 32 classes, drawn afresh for every seed, against 384 binary places:
+//!    Ten thousand polygons of each of 32 classes, drawn afresh for every seed, against 640 binary places:
 //!    tests/solid_angle_exact.rs; the bounded, winding, seen and geographic forms: tests/solid_angle_forms.rs.
 //! 2. Moments are within [`MOMENT_BOUND`] of the exact vector, however small the region: tests/solid_angle_oracle.rs,
 //!    tests/solid_angle_moments.rs. Projected solid angles, whole or above a horizon, are within [`PROJECTED_BOUND`]:

@@ -2,6 +2,9 @@
 //!
 //! The fan's apex is no vertex but a direction of small integers, every edge gives one factor, and nothing is special:
 //! where the opposite of the apex comes too close to an edge, another apex is taken.
+//!
+//! An edge that is 2⁻ᵏ short of a half turn costs k places. Two doubles of components above 1e-40 are exactly opposite or at
+//! least 2⁻²⁴⁰ short of it, so that 300 places are set aside for that.
 #![allow(dead_code, reason = "each test binary uses a part of it")]
 
 use glam::DVec3;
@@ -10,6 +13,14 @@ use steradian::glam;
 use super::fixed::{Fixed, PLACES, atan2, pi};
 
 pub type Vector = [Fixed; 3];
+
+/// Places that may be lost next to a half turn.
+const LOST: u64 = 300;
+
+/// The number, or 0 where it is but the noise of an exact 0: below 2⁻³²⁰.
+fn clean(x: Fixed) -> Fixed {
+    if x.0.bits() + 320 < PLACES { Fixed::default() } else { x }
+}
 
 pub fn dot(a: &Vector, b: &Vector) -> Fixed {
     let [x, y, z] = [0, 1, 2].map(|i| &a[i] * &b[i]);
@@ -53,16 +64,14 @@ pub fn half_angle(vertices: &[Vector]) -> Fixed {
         let apex = unit(&apex.map(Fixed::from));
         edges(vertices).try_fold((Fixed::from(1), Fixed::default()), |(re, im), (a, b)| {
             let (x, y) = factor(&apex, a, b);
-            // What is left of the fraction after a loss of 100 bits is enough.
-            let clear = x.0.bits().max(y.0.bits()) + 100 > PLACES;
+            let clear = x.0.bits().max(y.0.bits()) + LOST > PLACES;
             let (re, im) = (&(&re * &x) - &(&im * &y), &(&re * &y) + &(&im * &x));
             let by = PLACES as i64 - re.0.bits().max(im.0.bits()) as i64;
             clear.then(|| (re.shifted(by), im.shifted(by)))
         })
     });
     let (re, im) = product.expect("an apex whose opposite is on no edge");
-    // What is below 2⁻³⁰⁰ is the noise of an exact 0 or an exact half turn.
-    atan2(&if im.0.bits() + 300 < PLACES { Fixed::default() } else { im }, &re)
+    atan2(&clean(im), &re)
 }
 
 /// The integral of the winding number that is 0 at the direction opposite to `apex`: the sum of the fan's triangles.
@@ -107,8 +116,7 @@ pub fn projected(vertices: &[Vector], n: &Vector) -> Fixed {
 /// The part of a convex loop above the horizon of `n`, which may have no vertices.
 fn clipped(vertices: &[Vector], n: &Vector) -> Vec<Vector> {
     let mut kept = Vec::new();
-    // What is below 2⁻³⁰⁰ is the noise of an exact 0.
-    let height = |v: &Vector| Some(dot(v, n)).filter(|x| x.0.bits() + 300 > PLACES).unwrap_or_default();
+    let height = |v: &Vector| clean(dot(v, n));
     for (a, b) in edges(vertices) {
         let (p, q) = (height(a), height(b));
         let above = [&p, &q].map(|height| *height >= Fixed::default());
