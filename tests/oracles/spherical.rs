@@ -134,8 +134,8 @@ fn clipped(vertices: &[Vector], n: &Vector) -> Vec<Vector> {
 /// ∫ max(0, n·ω) dω over the region on the left of the loop, whose solid angle is in [0, 4π): the triangles of a fan, each of
 /// them clipped, and as many hemispheres as the fan misses whole spheres.
 pub fn projected_above(vertices: &[Vector], n: &Vector) -> Fixed {
-    // In no plane of a few small integers.
-    let apex = unit(&[37, -59, 83].map(Fixed::from));
+    // In no plane of small integers.
+    let apex = unit(&[104_729, -224_737, 350_377].map(Fixed::from));
     let parts = edges(vertices).fold(Fixed::default(), |sum, (a, b)| {
         let part = clipped(&[apex.clone(), a.clone(), b.clone()], n);
         if part.is_empty() { sum } else { &sum + &projected(&part, n) }
