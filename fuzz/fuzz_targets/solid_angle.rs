@@ -30,6 +30,12 @@ enum Vertex {
         of: [u8; 2],
         at: u8,
     },
+    /// An earlier vertex or its opposite, as far beside the unit sphere as it may be.
+    Along {
+        of: u8,
+        opposite: bool,
+        by: i8,
+    },
 }
 
 #[derive(Arbitrary, Debug)]
@@ -49,6 +55,10 @@ fn vertex(of: &Vertex, earlier: &[DVec3]) -> DVec3 {
             DVec3::new(moved(0), moved(1), moved(2))
         }
         Vertex::Between { of: [a, b], at } => pick(a).lerp(pick(b), f64::from(at) / 255.0).normalize(),
+        Vertex::Along { of, opposite, by } => {
+            let v = if opposite { -pick(of) } else { pick(of) };
+            v * (1.0 + UNIT_TOLERANCE / 400.0 * f64::from(by))
+        }
     }
 }
 

@@ -55,6 +55,5 @@ pub(super) fn lune<T: Real>(apex: &Apex<T>, p: [f64; 3], q: [f64; 3]) -> Complex
     let v = values(apex.v);
     let (s, t) = (exact::cross(v, p), exact::cross(v, q));
     let re = s[0] * t[0] + s[1] * t[1] + s[2] * t[2];
-    let det = exact::determinant(v, p, q);
-    Complex { re: re.cast(), im: (det + det * apex.excess.get()).cast() }
+    Complex { re: (re + re * deficit(v)).cast(), im: exact::determinant(v, p, q).cast() }
 }
