@@ -31,7 +31,7 @@ fn assert_exact(vertices: &[DVec3], normal: DVec3) {
     let largest = moment.iter().fold(0.0, |size: f64, x| size.max(x.value().abs()));
     let projections = [spherical::projected(&exact, &n), spherical::projected_above(&exact, &n)];
     // The loops are 2 across.
-    let floor = 4.0 * MOMENT_FLOOR;
+    let floor = 4.0 * MOMENT_FLOOR * (0.25 * vertices.len() as f64).max(1.0);
     let mut vertices = vertices.to_vec();
     for _ in 0..vertices.len() {
         let got = signed_polygon_bounded(&vertices).unwrap();

@@ -14,7 +14,7 @@
 //! A numerator is off by [`NUMERATOR_BOUND`] |p| |q| (largest components), which is δᵢ |Nᵢ|; below 2⁻⁴² |p| |q| it is exact
 //! but for a few u² of itself, and δᵢ = 8 u². That also bounds δᵢ by 2⁻⁵⁷. A denominator is off by η, which is
 //! [`NORMALISED_DENOMINATOR_BOUND`] or, where a norm is off by more than roundings, [`DENOMINATOR_BOUND`]. Where
-//! |zᵢ| = ½ |v₀ + b| |b + c| |c + v₀| (unit vectors) is below 2⁻¹⁶, both parts are off by 128 u² |zᵢ| at most: sums of unit
+//! |zᵢ| = ½ |v₀ + b| |b + c| |c + v₀| (unit vectors) is below 2⁻¹⁶, it is off by 128 u² |zᵢ| at most: sums of unit
 //! vectors are off by 25 u² of themselves, and the one left out is longer than 1. So are those of a lune, whose s is taken
 //! for 1. The angle is off by 2E, by 2⁻⁶² of itself for the arctangent, and by half a unit in the last place for the rounding.
 //! The three constants are machine-checked: docs/proofs/README.md. The rest of this page is an argument on paper.
@@ -121,7 +121,7 @@ const LARGEST_INVERSE: f64 = (1 << 16) as f64;
 /// Factors that are surely below that.
 const SHORT: f64 = 0.5 / LARGEST_INVERSE;
 
-/// What a factor next to a half turn may be off, relative to itself: 128 u².
+/// What the denominator of a factor next to a half turn may be off, relative to the factor: 128 u².
 const COLD: f64 = 128.0 * UNIT * UNIT;
 
 /// Vertices whose | |v|² − 1 | is not above this have | |v| − 1 | <= 2⁻⁵¹; normalised ones are about half of it off.
@@ -157,13 +157,10 @@ fn argument_error(vertices: &[DVec3]) -> f64 {
         let [least, most] = [0, 1].map(|i| 0.5 * sums[0][i] * sums[1][i] * sums[2][i]);
         let sine = if numerator < least { numerator / least } else { 1.0 };
         swept += sine;
-        if most < SHORT {
-            factors += sine * COLD;
-            continue;
-        }
         let relative =
             if numerator < EXACT * lengths { 8.0 * UNIT * UNIT } else { NUMERATOR_BOUND * (lengths / numerator) };
-        factors += sine * (relative.min(NUMERATOR) + denominator * (1.0 / least).min(LARGEST_INVERSE));
+        let denominator = if most < SHORT { COLD } else { denominator * (1.0 / least).min(LARGEST_INVERSE) };
+        factors += sine * (relative.min(NUMERATOR) + denominator);
     }
     factors + 64.0 * UNIT * UNIT * (vertices.len() as f64 * swept.min(1.0) + 4.0 * swept)
 }

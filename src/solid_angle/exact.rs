@@ -76,10 +76,36 @@ impl Expansion {
     }
 }
 
-/// det(a, b, c) = a·(b×c), correctly rounded but for a few u².
+/// Determinants of this size have a relative error of a few u² from a sum in four doubles, whose own is 2⁻²⁰⁷.
+const QUICK: f64 = 1.0 / ((1_u64 << 50) as f64 * (1_u64 << 50) as f64);
+
+/// det(a, b, c) = a·(b×c) of near-unit vectors, correctly rounded but for a few u².
 #[cold]
 #[inline(never)]
 pub(super) fn determinant(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> Double {
+    let mut sum = [0.0; 4];
+    let mut add = |mut x: f64| {
+        for level in &mut sum[..3] {
+            let next = Double::sum(*level, x);
+            (*level, x) = (next.hi, next.lo);
+        }
+        sum[3] += x;
+    };
+    for (i, j, k) in [(0, 1, 2), (1, 2, 0), (2, 0, 1)] {
+        for (x, y, z) in [(a[i], b[j], c[k]), (-a[i], b[k], c[j])] {
+            let product = Double::product(y, z);
+            for part in [Double::product(x, product.hi), Double::product(x, product.lo)] {
+                add(part.hi);
+                add(part.lo);
+            }
+        }
+    }
+    let quick = Double::sum(sum[2], sum[3]) + Double::from(sum[1]) + Double::from(sum[0]);
+    if quick.hi.abs() >= QUICK { quick } else { small_determinant(a, b, c) }
+}
+
+/// The same, however small.
+fn small_determinant(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> Double {
     let mut sum = Expansion::zero();
     for (i, j, k) in [(0, 1, 2), (1, 2, 0), (2, 0, 1)] {
         sum.add_triple(a[i], b[j], c[k]);
@@ -107,14 +133,13 @@ pub(super) fn double_cross(n: [f64; 3], a: [f64; 3], b: [f64; 3]) -> [Double; 3]
     })
 }
 
-/// |v|² − 1, with a relative error of a few u².
-pub(super) fn norm_error(v: [f64; 3]) -> Double {
-    let mut sum = Expansion::zero();
-    sum.add(-1.0);
-    for x in v {
-        sum.add_product(x, x);
-    }
-    sum.round()
+/// |v|² − 1 of a near-unit vector, within 2⁻¹⁵⁴ and a few u² of itself where it is above 2⁻⁵⁴.
+pub(super) fn norm_error([x, y, z]: [f64; 3]) -> Double {
+    let [x, y, z] = [Double::product(x, x), Double::product(y, y), Double::product(z, z)];
+    let s = Double::sum(x.hi, y.hi);
+    let t = Double::sum(s.hi, z.hi);
+    // All but the last are parts of the last place.
+    Double::sum(x.lo, y.lo) + Double::sum(z.lo, s.lo) + Double::from(t.lo) + Double::from(t.hi - 1.0)
 }
 
 /// Whether a×b = 0 exactly.

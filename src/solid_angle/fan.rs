@@ -269,19 +269,19 @@ pub(super) fn surely_unit<T: Real>(norm_error: T) -> bool {
 /// The factor of the triangle `apex b c`.
 #[inline(always)]
 fn triangle<T: Real>(apex: &Apex<T>, b: &Spoke<T>, c: &Spoke<T>) -> Complex<T> {
-    let im = numerator(apex.v, &b.offset, &c.offset);
-    let re = denominator([b.cosine, dot(b.v, c.v), c.cosine], [apex.excess, b.excess, c.excess]);
     let (v0, v1, v2) = (values(apex.v), values(b.v), values(c.v));
-    if re.hi.get().abs() + im.hi.get().abs() < FACTOR_FLOOR {
-        let Complex { re, im } = near_antipodal(v0, v1, v2);
-        return Complex { re: re.cast(), im: im.cast() };
-    }
+    let mut im = numerator(apex.v, &b.offset, &c.offset);
     let length = |p: &[Double<T>; 3]| {
         let [x, y, z] = three(|i| p[i].hi.get().abs());
         x.max(y).max(z)
     };
     if im.hi.get().abs() <= NUMERATOR_FLOOR * length(&b.offset) * length(&c.offset) {
-        return Complex { re, im: exact::determinant(v0, v1, v2).cast() };
+        im = exact::determinant(v0, v1, v2).cast();
+    }
+    let re = denominator([b.cosine, dot(b.v, c.v), c.cosine], [apex.excess, b.excess, c.excess]);
+    if re.hi.get().abs() + im.hi.get().abs() < FACTOR_FLOOR {
+        let Complex { re, im } = near_antipodal(v0, v1, v2, im.cast());
+        return Complex { re: re.cast(), im: im.cast() };
     }
     Complex { re, im }
 }

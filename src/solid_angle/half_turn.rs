@@ -5,6 +5,8 @@ use super::exact;
 use super::fan::{Apex, values};
 use super::kernel::Complex;
 
+type Vector = [Double; 3];
+
 /// 1/|v| − 1 in double length, from the exact |v|² − 1.
 pub(super) fn deficit(v: [f64; 3]) -> Double {
     let error = exact::norm_error(v);
@@ -14,15 +16,15 @@ pub(super) fn deficit(v: [f64; 3]) -> Double {
     error * (Double::from(-0.5) + error * tail)
 }
 
-/// â + b̂, within a few u² of itself, from the norms' 1/|v| − 1.
-///
-/// Next to a half turn the sum of the vectors may be all along them, by what their norms differ, and a small part of it across:
-/// with d = â − b̂ it is 2 (â×b̂)×d/|d|², where nothing cancels.
-fn unit_sum(a: [f64; 3], b: [f64; 3], deficits: [Double; 2]) -> [Double; 3] {
-    let [p, q] = deficits;
-    if a[0] * b[0] + a[1] * b[1] + a[2] * b[2] > -0.5 {
-        return [0, 1, 2].map(|i| Double::sum(a[i], b[i]) + (p * a[i] + q * b[i]));
+/// â + b̂, within 25 u² of itself, from the norms' 1/|v| − 1.
+fn unit_sum(a: [f64; 3], b: [f64; 3], [p, q]: [Double; 2]) -> Vector {
+    let sum = [0, 1, 2].map(|i| Double::sum(a[i], b[i]) + (p * a[i] + q * b[i]));
+    let parts = [0, 1, 2].map(|i| (a[i] + b[i]).abs() + (p.hi.abs() + q.hi.abs() + f64::EPSILON));
+    if parts[0].max(parts[1]).max(parts[2]) < 8.0 * length(&sum) {
+        return sum;
     }
+    // Next to a half turn the vectors' sum may be all along them, by what their norms differ, and a small part of it across:
+    // with d = â − b̂ that is 2 (â×b̂)×d/|d|², where nothing cancels.
     let d = [0, 1, 2].map(|i| Double::difference(a[i], b[i]) + (p * a[i] - q * b[i]));
     let norms = Double::from(1.0) + p + q + p * q;
     let factor = norms.times(2.0) / (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
@@ -30,22 +32,25 @@ fn unit_sum(a: [f64; 3], b: [f64; 3], deficits: [Double; 2]) -> [Double; 3] {
     [(1, 2), (2, 0), (0, 1)].map(|(i, j)| Double::pair(n[i], d[j], -n[j], d[i]))
 }
 
-/// The factor of a triangle with an edge that is nearly a half turn, in units of |a||b||c|, each part within a few u² of |z|.
+/// Largest component.
+fn length(v: &Vector) -> f64 {
+    v[0].hi.abs().max(v[1].hi.abs()).max(v[2].hi.abs())
+}
+
+/// The factor of a triangle with an edge that is nearly a half turn, whose N is `im`, in units of |a||b||c|; D within a few u²
+/// of |z|.
 ///
 /// D = (x + y)·(y + z) holds with any vertex in the middle; the pair with the longest sum is the one left out, so that
 /// |D| cannot be small against the lengths of the two sums unless N is large against it.
 #[cold]
 #[inline(never)]
-pub(super) fn near_antipodal(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> Complex<f64> {
+pub(super) fn near_antipodal(a: [f64; 3], b: [f64; 3], c: [f64; 3], im: Double) -> Complex<f64> {
     let [p, q, r] = [a, b, c].map(deficit);
     let mut sums = [unit_sum(a, b, [p, q]), unit_sum(b, c, [q, r]), unit_sum(c, a, [r, p])];
-    let length = |s: &[Double; 3]| s[0].hi.abs().max(s[1].hi.abs()).max(s[2].hi.abs());
     sums.sort_by(|s, t| length(s).total_cmp(&length(t)));
     let re = sums[0][0] * sums[1][0] + sums[0][1] * sums[1][1] + sums[0][2] * sums[1][2];
-    let im = exact::determinant(a, b, c);
-    let im = im + im * p;
-    let im = im + im * q;
-    Complex { re, im: im + im * r }
+    let norms = p + q + r + (p * q + q * r + r * p);
+    Complex { re, im: im + im * norms }
 }
 
 /// The factor of the lune from `p` over the antipode of `apex` to `q`: its argument is the azimuth from p to q.

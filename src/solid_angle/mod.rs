@@ -107,7 +107,8 @@ pub const ANGLE_BOUND: f64 = 0.51;
 /// One unit is the rounding of that component alone. [`MOMENT_FLOOR`] comes on top.
 pub const MOMENT_BOUND: f64 = 1.1;
 
-/// What a moment may be off beside [`MOMENT_BOUND`], searched: 2⁻¹⁰⁴, times the square of the loop's diameter.
+/// What a moment may be off beside [`MOMENT_BOUND`], searched: 2⁻¹⁰⁴, times the square of the loop's diameter; a quarter more of
+/// that for each vertex beyond the fourth.
 ///
 /// It matters where parts cancel to 2⁻⁵¹ of that square: the vertices are collinear up to their last bits, or the halves of
 /// a figure of eight are alike.

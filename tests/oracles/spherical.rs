@@ -33,8 +33,11 @@ pub fn cross(a: &Vector, b: &Vector) -> Vector {
 
 /// The vector of length 1 in the direction of `v`.
 pub fn unit(v: &Vector) -> Vector {
-    let length = dot(v, v).sqrt();
-    [0, 1, 2].map(|i| &v[i] / &length)
+    // Of a short one the square would lose twice as many places.
+    let by = PLACES as i64 - v.iter().map(|x| x.0.bits() as i64).max().unwrap_or_default();
+    let v = v.each_ref().map(|x| x.shifted(by));
+    let length = dot(&v, &v).sqrt();
+    v.map(|x| &x / &length)
 }
 
 /// The doubles taken exactly and normalised.
@@ -92,12 +95,12 @@ pub fn solid_angles(vertices: &[Vector]) -> (Fixed, Fixed) {
 /// ½ θ n̂ of the edge from a to b.
 pub fn edge_moment(a: &Vector, b: &Vector) -> Vector {
     let normal = cross(a, b);
-    let length = dot(&normal, &normal).sqrt();
-    if length.is_zero() {
+    if normal.iter().all(Fixed::is_zero) {
         return Vector::default();
     }
-    let angle = atan2(&length, &dot(a, b)).shifted(-1);
-    [0, 1, 2].map(|i| &(&normal[i] * &angle) / &length)
+    let across = unit(&normal);
+    let angle = atan2(&dot(&normal, &across), &dot(a, b)).shifted(-1);
+    across.map(|x| &x * &angle)
 }
 
 /// ½ Σ θₑ n̂ₑ.
