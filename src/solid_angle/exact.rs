@@ -3,7 +3,8 @@
 //! # Model
 //!
 //! A number is an expansion: a sum of doubles that do not overlap, smallest first. Adding one double to it is exact, so a
-//! determinant is exact until its rounding at the end. About 0.5 µs a determinant: a cold path.
+//! determinant is exact until its rounding at the end. About 0.5 µs a determinant: the coldest path. Before it, the same terms
+//! are summed in four doubles, each taking what the rounding of the one before leaves; that is enough above 2⁻¹⁰⁰.
 //!
 //! # Not here
 //!
@@ -13,7 +14,8 @@
 //!
 //! Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates", 1997, theorem 10
 //! (grow-expansion); Joldes, Muller and Popescu, "Tight and rigorous error bounds for basic building blocks of double-word
-//! arithmetic", 2017, theorem 3.1 (the sum of two double-length numbers).
+//! arithmetic", 2017, theorem 3.1 (the sum of two double-length numbers); Ogita, Rump and Oishi, "Accurate sum and dot
+//! product", 2005, algorithm 4.8 (the sum in four doubles).
 
 use super::double::Double;
 
@@ -100,7 +102,9 @@ pub(super) fn determinant(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> Double {
             }
         }
     }
-    let quick = Double::sum(sum[2], sum[3]) + Double::from(sum[1]) + Double::from(sum[0]);
+    let mut quick = Expansion { terms: [0.0; 24], len: 4 };
+    (0..4).for_each(|i| quick.terms[i] = sum[3 - i]);
+    let quick = quick.round();
     if quick.hi.abs() >= QUICK { quick } else { small_determinant(a, b, c) }
 }
 
@@ -169,7 +173,7 @@ pub(super) fn antipodal(a: [f64; 3], b: [f64; 3]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Expansion, antipodal, determinant, norm_error, parallel, same_direction};
+    use super::{Expansion, antipodal, determinant, norm_error, parallel, same_direction, small_determinant};
 
     #[test]
     fn determinant_sees_the_last_bit_of_the_last_product() {
@@ -179,8 +183,22 @@ mod tests {
     }
 
     #[test]
-    fn norm_error_of_a_third_is_exact() {
+    fn norm_error_of_halves_is_exact() {
         assert_eq!(norm_error([0.5, 0.5, 0.5]).value(), -0.25);
+    }
+
+    /// The quick sum says the same as the exact one wherever it is taken, and the exact one takes over below.
+    #[test]
+    fn determinants_do_not_depend_on_the_way_they_are_summed() {
+        let tiny = f64::EPSILON;
+        let (a, b) = ([0.6, 0.0, 0.8], [0.48, 0.6, 0.64]);
+        for size in [0.0, 1e-3, 1e-8, 1e-14, tiny, 1e-25, 1e-32, 1e-45, 1e-100] {
+            for c in [[0.48 + size, 0.6, 0.64], [0.6, size, 0.8], [0.6 - tiny, size, 0.8 + tiny]] {
+                let (quick, exact) = (determinant(a, b, c), small_determinant(a, b, c));
+                let apart = (quick - exact).value().abs();
+                assert!(apart <= 4.0 * tiny * tiny * exact.value().abs(), "{c:?}: {quick:?} and {exact:?}");
+            }
+        }
     }
 
     #[test]

@@ -45,12 +45,19 @@ fn length(v: &Vector) -> f64 {
 #[cold]
 #[inline(never)]
 pub(super) fn near_antipodal(a: [f64; 3], b: [f64; 3], c: [f64; 3], im: Double) -> Complex<f64> {
-    let [p, q, r] = [a, b, c].map(deficit);
-    let mut sums = [unit_sum(a, b, [p, q]), unit_sum(b, c, [q, r]), unit_sum(c, a, [r, p])];
-    sums.sort_by(|s, t| length(s).total_cmp(&length(t)));
-    let re = sums[0][0] * sums[1][0] + sums[0][1] * sums[1][1] + sums[0][2] * sums[1][2];
+    let square = |v: [f64; 3], w: [f64; 3]| (0..3).map(|i| (v[i] + w[i]) * (v[i] + w[i])).sum::<f64>();
+    let (ab, bc, ca) = (square(a, b), square(b, c), square(c, a));
+    let [x, y, z] = if ca >= ab && ca >= bc {
+        [a, b, c]
+    } else if ab >= bc {
+        [b, c, a]
+    } else {
+        [c, a, b]
+    };
+    let (p, q, r) = (deficit(x), deficit(y), deficit(z));
+    let (s, t) = (unit_sum(x, y, [p, q]), unit_sum(y, z, [q, r]));
     let norms = p + q + r + (p * q + q * r + r * p);
-    Complex { re, im: im + im * norms }
+    Complex { re: s[0] * t[0] + s[1] * t[1] + s[2] * t[2], im: im + im * norms }
 }
 
 /// The factor of the lune from `p` over the antipode of `apex` to `q`: its argument is the azimuth from p to q.

@@ -279,7 +279,12 @@ fn angle(vertices: &[DVec3]) -> Result<Double, SolidAngleError> {
 /// The same of a loop that may break a rule or need pruning.
 #[inline(never)]
 fn careful_angle(vertices: &[DVec3]) -> Result<Double, SolidAngleError> {
-    measured(vertices, |pruned| fan::fan(pruned).angle())
+    // What was tried at full speed and found special is not tried again.
+    let tried = vertices.len() == 3 || !fan::folded_at_apex(vertices);
+    let fan = |pruned: &[DVec3]| {
+        if tried && pruned.len() == vertices.len() { fan::special(pruned) } else { fan::fan(pruned) }
+    };
+    measured(vertices, |pruned| fan(pruned).angle())
 }
 
 /// `measure` of the loop, checked and pruned.

@@ -109,9 +109,9 @@ pub fn projected_solid_angle(vertices: &[DVec3], normal: DVec3) -> Result<f64, S
 ///
 /// # Accuracy
 ///
-/// As for [`projected_solid_angle`], edges included that are 1e-28 short of a half turn and cross the horizon; worst seen 0.50
-/// ulp. The noise of a loop whose solid angle is within its error of 0 decides whether it is taken for nothing or for the whole
-/// sphere. What is not above the horizon at all is exactly 0. Components below 1e-150 count as 0.
+/// As for [`projected_solid_angle`], also where edges that are 1e-28 short of a half turn cross the horizon; worst seen 0.50 ulp.
+/// Whether a loop encloses nothing or the whole sphere cannot be told where its solid angle is less than its error. What is not
+/// above the horizon at all is exactly 0. Components below 1e-150 count as 0.
 ///
 /// # Source
 ///
