@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the committed inputs of the Voronoi targets into fuzz/corpus/, named by what they are.
+"""Writes the committed inputs of the Voronoi and solid angle targets into fuzz/corpus/, named by what they are.
 
 The bytes are those that `arbitrary` 1 decodes: integers and doubles little-endian, the variant of n of an enum as a u32 k/n of
 2**32, and before each item of a vector at the end an odd byte.
@@ -77,3 +77,22 @@ write("voronoi_raw", [(name, no_pole + sites(points)) for name, points in cases(
 write("voronoi_raw", [("pole_zero", b"\1" + bytes(24) + sites([(1.0, 0.0, 0.0)])), ("no_sites", up + b"\0")])
 write("voronoi_raw", [("duplicate_met_first", no_pole + sites(DUPLICATE_MET_FIRST))])
 write("voronoi_raw", [(f"dome_{name}", up + sites(points)) for name, points in cases() if len(points) <= 6])
+
+RAW = variant(0, 5)
+
+
+def loop(normal, vertices):
+    return RAW + struct.pack("<3d", *normal) + vector(RAW + struct.pack("<3d", *v) for v in vertices)
+
+
+S, X = 0.5773502691896258, (1.0, 0.0, 0.0)
+TO_AND_FRO = [(0.3397824457863874, -0.863047412297424, -0.3737606903650261), (S, S, S)]
+TO_AND_FRO += [(-0.577350269189636, -0.5773502691896257, -0.577350269189616)]
+TO_AND_FRO += [(0.5773502691896261, 0.5773502691896159, 0.5773502691896061)]
+TO_AND_FRO += [(-0.5773502691896162, -0.577350269189606, -0.5773502691895962)]
+SLIVER = [(S, S, S), (0.5773502691896379, 0.5773502691896157, 0.5773502691896184)]
+SLIVER += [(-0.5773502691896305, -0.5773502691896083, -0.577350269189611), (-1.0, 0.0, 0.0)]
+SMALLEST = [X, (-1.0 - 2.0**-46, -3.8e-322, -3.8e-322), (0.6, -0.8, 0.0)]
+GRAZING = (0.3465791652140675, -0.663280816185543, -0.663280816185543)
+write("solid_angle", [("to_and_fro", loop(X, TO_AND_FRO)), ("sliver_across_the_horizon", loop(GRAZING, SLIVER))])
+write("solid_angle", [("half_turn_of_smallest_doubles", loop(X, SMALLEST))])

@@ -1,6 +1,6 @@
 //! Law: whatever the class of the polygon, solid angle and moment are the exact ones within the bound.
 //!
-//! The vertices are drawn afresh for every seed, and the exact values are computed on integers with 384 binary places.
+//! The vertices are drawn afresh for every seed, and the exact values are computed on integers with 640 binary places.
 #![cfg(feature = "sphere")]
 
 mod bounds;
@@ -196,7 +196,7 @@ fn exact_values_have_the_digits_of_the_stored_ones() {
     for known in oracle.polygons.iter().filter(|known| known.expect == "value") {
         let vertices: Vec<_> =
             known.vertices.iter().map(|v| DVec3::from_array([0, 1, 2].map(|i| hexadecimal(&v[i])))).collect();
-        // A coordinate below 2⁻³³⁰ does not fit into 384 places.
+        // Areas below 2⁻³²⁰ count as nothing here.
         if vertices.iter().any(|v| v.to_array().iter().any(|&x| x != 0.0 && x.abs() < 1e-90)) {
             continue;
         }

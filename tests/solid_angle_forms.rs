@@ -1,6 +1,6 @@
 //! Law: bounded, winding, seen-from and geographic solid angles are the exact ones within their bounds.
 //!
-//! The exact values are computed on integers with 384 binary places, from inputs drawn afresh for every seed.
+//! The exact values are computed on integers with 640 binary places, from inputs drawn afresh for every seed.
 #![cfg(feature = "sphere")]
 
 mod bounds;

@@ -1,6 +1,6 @@
 //! Law: moments are exact whatever the input: a million vertices, needles, polygons of 1e-150, edges that are nearly half turns.
 //!
-//! The exact values are computed on integers with 384 binary places.
+//! The exact values are computed on integers with 640 binary places.
 #![cfg(feature = "sphere")]
 
 mod bounds;

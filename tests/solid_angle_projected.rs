@@ -1,6 +1,6 @@
 //! Law: projected solid angles, whole or above the horizon, are the exact ones within their bounds.
 //!
-//! The exact values are computed on integers with 384 binary places; above the horizon by clipping the triangles of a fan.
+//! The exact values are computed on integers with 640 binary places; above the horizon by clipping the triangles of a fan.
 #![cfg(feature = "sphere")]
 
 mod bounds;

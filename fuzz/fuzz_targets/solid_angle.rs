@@ -1,11 +1,18 @@
 //! Loops of raw doubles and of vertices near, opposite to and between others: accepted exactly if documented, then every form
-//! is a number in its range.
+//! is the exact value within its bound.
 #![no_main]
 
 use arbitrary::Arbitrary;
 use libfuzzer_sys::fuzz_target;
 use steradian::glam::DVec3;
-use steradian::solid_angle::{self, SolidAngleError, UNIT_TOLERANCE};
+use steradian::solid_angle::{self, MOMENT_BOUND, MOMENT_FLOOR, PROJECTED_BOUND, SolidAngleError, UNIT_TOLERANCE};
+
+#[path = "../../tests/oracles/fixed.rs"]
+mod fixed;
+#[path = "../../tests/oracles/spherical.rs"]
+mod spherical;
+
+use fixed::Fixed;
 
 #[derive(Arbitrary, Debug)]
 enum Vertex {
@@ -22,6 +29,12 @@ enum Vertex {
     Between {
         of: [u8; 2],
         at: u8,
+    },
+    /// An earlier vertex or its opposite, as far beside the unit sphere as it may be.
+    Along {
+        of: u8,
+        opposite: bool,
+        by: i8,
     },
 }
 
@@ -42,7 +55,16 @@ fn vertex(of: &Vertex, earlier: &[DVec3]) -> DVec3 {
             DVec3::new(moved(0), moved(1), moved(2))
         }
         Vertex::Between { of: [a, b], at } => pick(a).lerp(pick(b), f64::from(at) / 255.0).normalize(),
+        Vertex::Along { of, opposite, by } => {
+            let v = if opposite { -pick(of) } else { pick(of) };
+            v * (1.0 + UNIT_TOLERANCE / 400.0 * f64::from(by))
+        }
     }
+}
+
+/// Whether the exact numbers hold it: coordinates below 1e-40 do not leave enough places for their products.
+fn fits(v: DVec3) -> bool {
+    v.to_array().iter().all(|&x| x == 0.0 || x.abs() > 1e-40)
 }
 
 fuzz_target!(|input: Input| {
@@ -74,10 +96,36 @@ fuzz_target!(|input: Input| {
     assert_eq!(projections.is_ok() || half_turn, is_unit(normal), "{normal}");
     let moment = solid_angle::vector_moment(&vertices).expect("the same loop");
     let n = vertices.len() as f64;
-    assert!(bounded.value.abs() <= 6.284 && bounded.error >= 0.0 && moment.length() <= 3.142 * n, "{vertices:?}");
-    let reversed: Vec<DVec3> = vertices.iter().rev().copied().collect();
-    assert!(solid_angle::signed_polygon(&reversed).is_ok_and(|angle| angle.abs() <= 6.284), "{vertices:?}");
-    if let Ok((whole, above)) = projections {
-        assert!(whole.abs() <= 3.142 * n && above.abs() <= 3.142 * n, "{normal} {vertices:?}: {whole} {above}");
+    if !vertices.iter().all(|&v| fits(v)) {
+        assert!(bounded.value.abs() <= 6.284 && moment.length() <= 3.142 * n, "{vertices:?}");
+        return;
+    }
+    let exact = spherical::directions(&vertices);
+    let (signed, _) = spherical::solid_angles(&exact);
+    let apart = (&Fixed::from(bounded.value) - &signed).abs();
+    let apart = apart.clone().min((&apart - &fixed::pi().shifted(2)).abs()).value();
+    assert!(apart <= bounded.error, "{vertices:?}: {bounded:?} against {}", signed.value());
+
+    let square = |v: &DVec3| vertices.iter().map(|w| v.distance_squared(*w)).fold(0.0, f64::max);
+    let floor = MOMENT_FLOOR * vertices.iter().map(square).fold(0.0, f64::max) * (0.25 * n).max(1.0);
+    let want = spherical::vector_moment(&exact);
+    let largest = want.iter().fold(0.0, |size: f64, x| size.max(x.value().abs()));
+    let limit = MOMENT_BOUND * 0.5 * f64::EPSILON * largest + floor;
+    for i in 0..3 {
+        let error = (&Fixed::from(moment[i]) - &want[i]).abs().value();
+        assert!(error <= limit, "{vertices:?}: {moment}, {error:e} > {limit:e}");
+    }
+
+    let Ok((whole, above)) = projections else { return };
+    // Which side is the region of a loop that encloses nothing is a matter of noise.
+    if !fits(normal) || signed.abs().value() <= bounded.error {
+        return;
+    }
+    let n = spherical::direction(normal);
+    for (got, want) in [(whole, spherical::projected(&exact, &n)), (above, spherical::projected_above(&exact, &n))] {
+        let nearest = want.value().abs();
+        let limit = PROJECTED_BOUND * (f64::from_bits(nearest.to_bits() + 1) - nearest) + floor;
+        let error = (&Fixed::from(got) - &want).abs().value();
+        assert!(error <= limit, "{normal} {vertices:?}: {got:e} against {:e}, {error:e} off", want.value());
     }
 });

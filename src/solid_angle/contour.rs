@@ -36,9 +36,9 @@ pub(super) fn twice_moment(vertices: &[DVec3]) -> (Vector, f64) {
         let next = Corner::new(vertex);
         let next_offset = apex.offset_to(&next).map(|x| x.times(scale));
         let edge = Edge::new(&corner, &next);
-        let rise = edge.rise(edge.sine, edge.cosine).times(scale);
+        let rise = bulge(edge.sine, edge.cosine).times(scale).times(scale);
         let flat = cross(&offset, &next_offset);
-        sum = [0, 1, 2].map(|i| sum[i] + flat[i] + edge.normal[i].times(scale) * rise);
+        sum = [0, 1, 2].map(|i| sum[i] + flat[i] + edge.normal[i] * rise);
         (corner, offset) = (next, next_offset);
     }
     (sum, scale)
@@ -81,8 +81,9 @@ pub(super) fn deficit(x: Double) -> Double {
 
 /// What an edge from a to b has in common with every part of it.
 pub(super) struct Edge {
-    /// a×b, and its length.
+    /// n̂ = a×b/|a×b|; nothing where the ends are the same.
     pub normal: Vector,
+    /// |a×b|.
     pub length: Double,
     /// Sine and cosine of the angle between a and b.
     pub sine: Double,
@@ -92,17 +93,16 @@ pub(super) struct Edge {
 impl Edge {
     pub fn new(a: &Corner, b: &Corner) -> Self {
         let dot = (0..3).map(|i| Double::product(a.v[i], b.v[i])).fold(Double::default(), |sum, x| sum + x);
-        let behind = dot.hi < 0.0;
-        let side = [0, 1, 2].map(|i| Double::sum(b.v[i], if behind { a.v[i] } else { -a.v[i] }));
-        let normal = cross(&a.v.to_array().map(Double::from), &side);
+        let normal = exact::cross(a.v.to_array(), b.v.to_array());
+        // Its square may vanish where it does not.
+        let largest = normal.iter().fold(f64::MIN_POSITIVE, |size, x| size.max(x.hi.abs()));
+        let power = f64::from_bits(largest.to_bits() & 0x7ff0_0000_0000_0000);
+        let normal = normal.map(|x| x.times(1.0 / power));
         let length = length(&normal);
+        let normal = if length.hi > 0.0 { normal.map(|x| x / length) } else { normal };
+        let length = length.times(power);
         let norms = a.deficit + b.deficit + a.deficit * b.deficit;
         Self { normal, length, sine: length + length * norms, cosine: dot + dot * norms }
-    }
-
-    /// (θ − sin θ)/|a×b| of an angle θ, so that its product with the normal is n̂ (θ − sin θ).
-    pub fn rise(&self, sine: Double, cosine: Double) -> Double {
-        if self.length.hi > 0.0 { bulge(sine, cosine) / self.length } else { Double::default() }
     }
 }
 

@@ -23,12 +23,14 @@
 //! - |N| below 2⁻⁴² of the lengths of the two differences is computed exactly;
 //! - the norms of the vertices enter D: vertices of 2⁻⁵² beside the unit sphere would otherwise cost a factor 2⁻⁵²/ε in an
 //!   edge that is ε short of a half turn;
-//! - |z| below 2⁻¹⁶ means such an edge; D is then taken in the product form, from sums of unit vectors in double length;
+//! - |z| below 2⁻¹⁶ means such an edge; D is then taken in the product form, from sums of unit vectors that are known to a few
+//!   u² of themselves, however short and however the norms differ;
 //! - a vertex exactly antipodal to v₀ makes both of its triangles 0/0; together they are a lune, whose half area is the
 //!   difference of two azimuths around v₀.
 //!
-//! Triangles of both signs may cancel: the error is a few u² of the sum of their absolute areas. What is below 2⁻⁹⁸ of
-//! that sum has no reliable sign, and is taken for exactly nothing.
+//! Triangles of both signs may cancel: the error is 2⁻⁵⁷ of the area of a triangle whose N is just above 2⁻⁴² of those lengths,
+//! and less in proportion beyond; `bounded.rs` adds it up. What is below 2⁻⁹⁸ of the sum of the absolute areas has no reliable
+//! sign, and is taken for exactly nothing.
 //!
 //! # Source
 //!
@@ -107,7 +109,12 @@ impl Fan {
 
 /// The fan of a loop without whiskers; any loop of fewer than three vertices has none.
 pub(super) fn fan(vertices: &[DVec3]) -> Fan {
-    dispatch::run(Loop { vertices, checked: true }).unwrap_or_default()
+    dispatch::run(Loop { vertices, strands: true, singly: true }).unwrap_or_default()
+}
+
+/// The same of a loop that is known to have something special about it.
+pub(super) fn special(vertices: &[DVec3]) -> Fan {
+    dispatch::run(Loop { vertices, strands: false, singly: true }).unwrap_or_default()
 }
 
 /// The fan of a loop that nobody has checked; none where it takes a closer look.
@@ -115,17 +122,21 @@ pub(super) fn fan(vertices: &[DVec3]) -> Fan {
 /// What a loop is checked for shows in what is computed anyway: the norms are known, and equal or opposite directions make
 /// N or z nothing. An edge walked forth and back makes two neighbouring factors conjugate, or stands at the apex.
 pub(super) fn unchecked(vertices: &[DVec3]) -> Option<Fan> {
-    let [_, second, .., last] = vertices else { return None };
-    if (*second - *last).abs().max_element() <= UNIT_TOLERANCE * 2.0 {
-        return None;
-    }
-    dispatch::run(Loop { vertices, checked: false })
+    if folded_at_apex(vertices) { None } else { dispatch::run(Loop { vertices, strands: true, singly: false }) }
+}
+
+/// Whether the two edges at the apex may be one, walked forth and back; which does not show in the factors.
+pub(super) fn folded_at_apex(vertices: &[DVec3]) -> bool {
+    let [_, second, .., last] = vertices else { return true };
+    (*second - *last).abs().max_element() <= UNIT_TOLERANCE * 2.0
 }
 
 struct Loop<'a> {
     vertices: &'a [DVec3],
-    /// Whether the loop is checked and pruned. If it is not, the kernel gives up where that may matter.
-    checked: bool,
+    /// Whether to try the strands, which give up where anything is special.
+    strands: bool,
+    /// Whether to go on singly then: the loop is checked and pruned.
+    singly: bool,
 }
 
 impl Kernel for Loop<'_> {
@@ -133,8 +144,9 @@ impl Kernel for Loop<'_> {
 
     #[inline(always)]
     fn run<T: Real>(self) -> Option<Fan> {
-        match strands::fan::<T>(self.vertices) {
-            None if self.checked => Some(one_after_another::<T>(self.vertices)),
+        let fan = if self.strands { strands::fan::<T>(self.vertices) } else { None };
+        match fan {
+            None if self.singly => Some(one_after_another::<T>(self.vertices)),
             fan => fan,
         }
     }
@@ -269,17 +281,18 @@ pub(super) fn surely_unit<T: Real>(norm_error: T) -> bool {
 /// The factor of the triangle `apex b c`.
 #[inline(always)]
 fn triangle<T: Real>(apex: &Apex<T>, b: &Spoke<T>, c: &Spoke<T>) -> Complex<T> {
+    let (v0, v1, v2) = (values(apex.v), values(b.v), values(c.v));
     let mut im = numerator(apex.v, &b.offset, &c.offset);
     let length = |p: &[Double<T>; 3]| {
         let [x, y, z] = three(|i| p[i].hi.get().abs());
         x.max(y).max(z)
     };
     if im.hi.get().abs() <= NUMERATOR_FLOOR * length(&b.offset) * length(&c.offset) {
-        im = exact::determinant(values(apex.v), values(b.v), values(c.v)).cast();
+        im = exact::determinant(v0, v1, v2).cast();
     }
     let re = denominator([b.cosine, dot(b.v, c.v), c.cosine], [apex.excess, b.excess, c.excess]);
     if re.hi.get().abs() + im.hi.get().abs() < FACTOR_FLOOR {
-        let Complex { re, im } = near_antipodal(values(apex.v), values(b.v), values(c.v), im.cast());
+        let Complex { re, im } = near_antipodal(v0, v1, v2, im.cast());
         return Complex { re: re.cast(), im: im.cast() };
     }
     Complex { re, im }
@@ -366,7 +379,7 @@ mod tests {
 
     #[cfg(target_arch = "x86_64")]
     fn checked(vertices: &[DVec3]) -> Loop<'_> {
-        Loop { vertices, checked: true }
+        Loop { vertices, strands: true, singly: true }
     }
 
     /// Loops of every kind that the kernel tells apart, from a linear congruence.

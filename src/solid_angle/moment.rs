@@ -210,7 +210,7 @@ fn plain_rise<T: Real>(a: &Corner<T>, b: &Corner<T>, d: [T; 3]) -> [T; 3] {
 #[inline(always)]
 fn short_rise<T: Real>(a: &Corner<T>, b: &Corner<T>) -> [Double<T>; 3] {
     let d = kernel::offset(a.v, b.v);
-    let normal = normal(a, &d);
+    let normal = cross(&three(|i| Double { hi: a.v[i], lo: T::constant(0.0) }), &d);
     let deficit = -(a.excess + b.excess);
     let chord = square(&d);
     let h = plus(chord, Double { hi: chord.hi * deficit, lo: T::constant(0.0) }).times(0.25);
@@ -226,9 +226,9 @@ fn short_rise<T: Real>(a: &Corner<T>, b: &Corner<T>) -> [Double<T>; 3] {
 #[inline(always)]
 fn long_rise<T: Real>(a: &Corner<T>, b: &Corner<T>) -> [Double<T>; 3] {
     let cosine = dot(a.v, b.v);
-    // a×b = a×(b ± a): exact sums, which are small where the product is.
-    let behind = T::constant(if cosine.hi.get() < 0.0 { 1.0 } else { -1.0 });
-    let normal = normal(a, &three(|i| Double::sum(b.v[i], behind * a.v[i])));
+    // Where the norms differ, a×(a + b) would be short against its factors next to a half turn.
+    let minor = |i: usize, j: usize| Double::product(a.v[i], b.v[j]) - Double::product(a.v[j], b.v[i]);
+    let normal = [minor(1, 2), minor(2, 0), minor(0, 1)];
     let length = root(square(&normal));
     let angle = argument(cosine, length).cast();
     let sine = plus(length, Double { hi: -(length.hi * (a.excess + b.excess)), lo: T::constant(0.0) });
@@ -239,12 +239,6 @@ fn long_rise<T: Real>(a: &Corner<T>, b: &Corner<T>) -> [Double<T>; 3] {
 #[inline(always)]
 fn constant<T: Real>((hi, lo): (f64, f64)) -> Double<T> {
     Double { hi: T::constant(hi), lo: T::constant(lo) }
-}
-
-/// a×side.
-#[inline(always)]
-fn normal<T: Real>(a: &Corner<T>, side: &[Double<T>; 3]) -> [Double<T>; 3] {
-    cross(&three(|i| Double { hi: a.v[i], lo: T::constant(0.0) }), side)
 }
 
 /// |v|².

@@ -17,7 +17,8 @@
 //! # Accuracy
 //!
 //! Which vertices are above is decided by exact signs; a vertex exactly on the horizon is above it. An edge crosses at
-//! a + t (b − a), t = n·a/(n·a − n·b) with exact products, and everything follows in double length.
+//! a + t (b − a), t = n·a/(n·a − n·b) with exact products, or, if it is longer than a quarter turn, at (a×b)×n taken exactly;
+//! everything follows in double length.
 //!
 //! # Source
 //!
@@ -108,9 +109,9 @@ pub fn projected_solid_angle(vertices: &[DVec3], normal: DVec3) -> Result<f64, S
 ///
 /// # Accuracy
 ///
-/// As for [`projected_solid_angle`], and in addition 2⁻¹⁰¹/ε where an edge that is ε short of a half turn crosses the horizon;
-/// worst seen 0.50 ulp. With edges less than 1e-6 short of a half turn there is no bound: an error of 5e-7 was seen at 1e-13.
-/// What is not above the horizon at all is exactly 0. Components below 1e-150 count as 0.
+/// As for [`projected_solid_angle`], also where edges that are 1e-28 short of a half turn cross the horizon; worst seen 0.50 ulp.
+/// Whether a loop encloses nothing or the whole sphere cannot be told where its solid angle is less than its error. What is not
+/// above the horizon at all is exactly 0. Components below 1e-150 count as 0.
 ///
 /// # Source
 ///
@@ -240,7 +241,7 @@ impl Normal {
             match (heights[i].hi >= 0.0, heights[j].hi >= 0.0) {
                 (true, true) => clip.arc(&edge, origin.offset_to(&next), edge.sine, edge.cosine),
                 (true, false) => {
-                    let crossing = Crossing::new(&corner, &next, heights[i], heights[j], &edge);
+                    let crossing = self.crossing(&corner, &next, heights[i], heights[j], &edge);
                     let offset = sum(&origin.offset_to(&corner), &crossing.offset);
                     clip.arc(&edge, offset, crossing.sine, crossing.cosine);
                     dive = Dive { from: i, turned: 0.0, entry: crossing.unit, offset };
@@ -248,7 +249,7 @@ impl Normal {
                 }
                 (false, false) => {}
                 (false, true) => {
-                    let crossing = Crossing::new(&next, &corner, heights[j], heights[i], &edge);
+                    let crossing = self.crossing(&next, &corner, heights[j], heights[i], &edge);
                     let end = origin.offset_to(&next);
                     let offset = sum(&end, &crossing.offset);
                     let turned = dive.turned + self.sweep(pruned[dive.from], pruned[j])
@@ -266,6 +267,31 @@ impl Normal {
             corner = next;
         }
         ((self.along(&clip.flat) + clip.rises).times(0.5), clip.turns)
+    }
+
+    /// Where the edge between a vertex above and one below, in this order of the arguments, crosses the horizon.
+    fn crossing(&self, above: &Corner, below: &Corner, height: Double, depth: Double, edge: &Edge) -> Crossing {
+        let one = Double::from(1.0);
+        let a = above.v.to_array().map(|x| Double::from(x) + above.deficit * x);
+        let (offset, part) = if edge.cosine.hi > 0.0 {
+            // p = a + t (b − a), 1 − t = s.
+            let (t, s) = (height / (height - depth), -(depth / (height - depth)));
+            let d = [0, 1, 2].map(|i| Double::difference(below.v[i], above.v[i]));
+            // |p|² − 1
+            let square = above.norm_error + t * (below.norm_error - above.norm_error) - t * s * dot(&d, &d);
+            let shorter = deficit(square);
+            let inverse = one + shorter;
+            let radial = shorter - above.deficit;
+            ([0, 1, 2].map(|i| t * inverse * d[i] + radial * above.v[i]), t * inverse)
+        } else {
+            // p = (a×b)×n, which is all that is left of b (n·a) − a (n·b) next to a half turn.
+            let p = exact::double_cross(self.n.to_array(), above.v.to_array(), below.v.to_array());
+            let inverse = one / dot(&p, &p).sqrt();
+            ([0, 1, 2].map(|i| p[i] * inverse - a[i]), height * inverse)
+        };
+        let unit = sum(&a, &offset);
+        let sine = part * edge.length * (one + above.deficit);
+        Crossing { unit, offset, sine, cosine: dot(&a, &unit), part }
     }
 
     /// The azimuth by which the edge from a to b turns between its crossing and `above`, its end above the horizon.
@@ -312,7 +338,7 @@ impl<'a> Clip<'a> {
     /// On along a part of the edge.
     fn arc(&mut self, edge: &Edge, offset: Vector, sine: Double, cosine: Double) {
         self.go(offset);
-        self.rises = self.rises + self.normal.along(&edge.normal) * edge.rise(sine, cosine);
+        self.rises = self.rises + self.normal.along(&edge.normal) * bulge(sine, cosine);
     }
 
     /// On along the horizon, by an azimuth of about `turned`.
@@ -339,32 +365,6 @@ struct Crossing {
     cosine: Double,
     /// a×p̂ is this part of a×b.
     part: Double,
-}
-
-impl Crossing {
-    fn new(above: &Corner, below: &Corner, height: Double, depth: Double, edge: &Edge) -> Self {
-        let one = Double::from(1.0);
-        // p = a + t (b − a), 1 − t = s.
-        let (t, s) = (height / (height - depth), -(depth / (height - depth)));
-        let d = [0, 1, 2].map(|i| Double::difference(below.v[i], above.v[i]));
-        let a = above.v.to_array().map(|x| Double::from(x) + above.deficit * x);
-        let (offset, inverse) = if edge.cosine.hi > 0.0 {
-            // |p|² − 1
-            let square = above.norm_error + t * (below.norm_error - above.norm_error) - t * s * dot(&d, &d);
-            let shorter = deficit(square);
-            let inverse = one + shorter;
-            let radial = shorter - above.deficit;
-            ([0, 1, 2].map(|i| t * inverse * d[i] + radial * above.v[i]), inverse)
-        } else {
-            let p = [0, 1, 2].map(|i| Double::from(above.v[i]) * s + t * below.v[i]);
-            let inverse = one / dot(&p, &p).sqrt();
-            ([0, 1, 2].map(|i| p[i] * inverse - a[i]), inverse)
-        };
-        let unit = sum(&a, &offset);
-        let part = t * inverse;
-        let sine = part * edge.length * (one + above.deficit);
-        Self { unit, offset, sine, cosine: dot(&a, &unit), part }
-    }
 }
 
 fn sum(p: &Vector, q: &Vector) -> Vector {

@@ -1,7 +1,7 @@
-//! Numbers of 384 binary places on integers of any length, with the functions that spherical geometry needs.
+//! Numbers of 640 binary places on integers of any length, with the functions that spherical geometry needs.
 //!
-//! Every operation is off by a few units of the last place, 2⁻³⁸⁴, and nothing is clever: what is computed here to check
-//! a double has a hundred digits to spare.
+//! Every operation is off by a few units of the last place, 2⁻⁶⁴⁰ (a sine by some thousand), and nothing is clever: what is
+//! computed here to check a double has a hundred digits to spare.
 #![allow(dead_code, reason = "each test binary uses a part of it")]
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -9,7 +9,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use num_bigint::BigInt;
 
 /// Binary places.
-pub const PLACES: u64 = 384;
+pub const PLACES: u64 = 640;
 
 /// The number `0 · 2^−PLACES`.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -21,7 +21,7 @@ impl From<i32> for Fixed {
     }
 }
 
-/// Exact for what has no bit below 2⁻³⁸⁴.
+/// Exact for what has no bit below 2⁻⁶⁴⁰.
 impl From<f64> for Fixed {
     fn from(x: f64) -> Self {
         assert!(x.is_finite(), "{x} is not a number");
@@ -103,9 +103,9 @@ impl Neg for Fixed {
     }
 }
 
-/// Sine and cosine of an angle of a few turns at most: Taylor's series of the 256th part, then eight doublings.
+/// Sine and cosine of an angle of a few turns at most: Taylor's series of the 4096th part, then twelve doublings.
 pub fn sin_cos(angle: &Fixed) -> (Fixed, Fixed) {
-    let part = angle.shifted(-8);
+    let part = angle.shifted(-12);
     let (mut sin, mut cos) = (Fixed::default(), Fixed::from(1));
     let mut term = Fixed::from(1);
     for k in 1_u32.. {
@@ -120,7 +120,7 @@ pub fn sin_cos(angle: &Fixed) -> (Fixed, Fixed) {
             _ => sin = &sin - &term,
         }
     }
-    for _ in 0..8 {
+    for _ in 0..12 {
         (sin, cos) = ((&sin * &cos).shifted(1), &Fixed::from(1) - &(&sin * &sin).shifted(1));
     }
     (sin, cos)
@@ -132,7 +132,7 @@ pub fn atan2(y: &Fixed, x: &Fixed) -> Fixed {
     let (sin, cos) = sin_cos(&guess);
     let left = &(&(y * &cos) - &(x * &sin)) / &(&(x * &cos) + &(y * &sin)); // below 2⁻⁴⁸
     let square = &left * &left;
-    let series = (1..5).rev().fold(Fixed::default(), |sum, k| {
+    let series = (1..8).rev().fold(Fixed::default(), |sum, k| {
         let coefficient = Fixed(Fixed::from(if k % 2 == 0 { 1 } else { -1 }).0 / (2 * k + 1));
         &(&coefficient + &sum) * &square
     });

@@ -2,6 +2,9 @@
 //!
 //! The fan's apex is no vertex but a direction of small integers, every edge gives one factor, and nothing is special:
 //! where the opposite of the apex comes too close to an edge, another apex is taken.
+//!
+//! An edge that is 2⁻ᵏ short of a half turn costs k places. Two doubles of components above 1e-40 are exactly opposite or at
+//! least 2⁻²⁴⁰ short of it, so that 300 places are set aside for that.
 #![allow(dead_code, reason = "each test binary uses a part of it")]
 
 use glam::DVec3;
@@ -10,6 +13,14 @@ use steradian::glam;
 use super::fixed::{Fixed, PLACES, atan2, pi};
 
 pub type Vector = [Fixed; 3];
+
+/// Places that may be lost next to a half turn.
+const LOST: u64 = 300;
+
+/// The number, or 0 where it is but the noise of an exact 0: below 2⁻³²⁰.
+fn clean(x: Fixed) -> Fixed {
+    if x.0.bits() + 320 < PLACES { Fixed::default() } else { x }
+}
 
 pub fn dot(a: &Vector, b: &Vector) -> Fixed {
     let [x, y, z] = [0, 1, 2].map(|i| &a[i] * &b[i]);
@@ -22,8 +33,11 @@ pub fn cross(a: &Vector, b: &Vector) -> Vector {
 
 /// The vector of length 1 in the direction of `v`.
 pub fn unit(v: &Vector) -> Vector {
-    let length = dot(v, v).sqrt();
-    [0, 1, 2].map(|i| &v[i] / &length)
+    // Of a short one the square would lose twice as many places.
+    let by = PLACES as i64 - v.iter().map(|x| x.0.bits() as i64).max().unwrap_or_default();
+    let v = v.each_ref().map(|x| x.shifted(by));
+    let length = dot(&v, &v).sqrt();
+    v.map(|x| &x / &length)
 }
 
 /// The doubles taken exactly and normalised.
@@ -53,16 +67,14 @@ pub fn half_angle(vertices: &[Vector]) -> Fixed {
         let apex = unit(&apex.map(Fixed::from));
         edges(vertices).try_fold((Fixed::from(1), Fixed::default()), |(re, im), (a, b)| {
             let (x, y) = factor(&apex, a, b);
-            // What is left of the fraction after a loss of 100 bits is enough.
-            let clear = x.0.bits().max(y.0.bits()) + 100 > PLACES;
+            let clear = x.0.bits().max(y.0.bits()) + LOST > PLACES;
             let (re, im) = (&(&re * &x) - &(&im * &y), &(&re * &y) + &(&im * &x));
             let by = PLACES as i64 - re.0.bits().max(im.0.bits()) as i64;
             clear.then(|| (re.shifted(by), im.shifted(by)))
         })
     });
     let (re, im) = product.expect("an apex whose opposite is on no edge");
-    // What is below 2⁻³⁰⁰ is the noise of an exact 0 or an exact half turn.
-    atan2(&if im.0.bits() + 300 < PLACES { Fixed::default() } else { im }, &re)
+    atan2(&clean(im), &re)
 }
 
 /// The integral of the winding number that is 0 at the direction opposite to `apex`: the sum of the fan's triangles.
@@ -83,12 +95,12 @@ pub fn solid_angles(vertices: &[Vector]) -> (Fixed, Fixed) {
 /// ½ θ n̂ of the edge from a to b.
 pub fn edge_moment(a: &Vector, b: &Vector) -> Vector {
     let normal = cross(a, b);
-    let length = dot(&normal, &normal).sqrt();
-    if length.is_zero() {
+    if normal.iter().all(Fixed::is_zero) {
         return Vector::default();
     }
-    let angle = atan2(&length, &dot(a, b)).shifted(-1);
-    [0, 1, 2].map(|i| &(&normal[i] * &angle) / &length)
+    let across = unit(&normal);
+    let angle = atan2(&dot(&normal, &across), &dot(a, b)).shifted(-1);
+    across.map(|x| &x * &angle)
 }
 
 /// ½ Σ θₑ n̂ₑ.
@@ -107,8 +119,7 @@ pub fn projected(vertices: &[Vector], n: &Vector) -> Fixed {
 /// The part of a convex loop above the horizon of `n`, which may have no vertices.
 fn clipped(vertices: &[Vector], n: &Vector) -> Vec<Vector> {
     let mut kept = Vec::new();
-    // What is below 2⁻³⁰⁰ is the noise of an exact 0.
-    let height = |v: &Vector| Some(dot(v, n)).filter(|x| x.0.bits() + 300 > PLACES).unwrap_or_default();
+    let height = |v: &Vector| clean(dot(v, n));
     for (a, b) in edges(vertices) {
         let (p, q) = (height(a), height(b));
         let above = [&p, &q].map(|height| *height >= Fixed::default());
@@ -126,8 +137,8 @@ fn clipped(vertices: &[Vector], n: &Vector) -> Vec<Vector> {
 /// ∫ max(0, n·ω) dω over the region on the left of the loop, whose solid angle is in [0, 4π): the triangles of a fan, each of
 /// them clipped, and as many hemispheres as the fan misses whole spheres.
 pub fn projected_above(vertices: &[Vector], n: &Vector) -> Fixed {
-    // In no plane of a few small integers.
-    let apex = unit(&[37, -59, 83].map(Fixed::from));
+    // In no plane of small integers.
+    let apex = unit(&[104_729, -224_737, 350_377].map(Fixed::from));
     let parts = edges(vertices).fold(Fixed::default(), |sum, (a, b)| {
         let part = clipped(&[apex.clone(), a.clone(), b.clone()], n);
         if part.is_empty() { sum } else { &sum + &projected(&part, n) }
