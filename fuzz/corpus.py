@@ -29,9 +29,15 @@ def sites(points):
 
 AXIS_Z, POLE_AT_FIRST = variant(0, 5) + b"\2", variant(1, 5) + b"\0"
 BISECTOR, THROUGH = variant(2, 5) + b"\0\1", variant(3, 5) + b"\0\1"
-ULPS, DUPLICATE = variant(0, 8) + b"\0\1\xff\0", variant(1, 8) + b"\1"
-ANTIPODE, NEAR = variant(2, 8) + b"\0", variant(3, 8) + b"\0\x0c\x40\x20\xe0"
-MIDDLE, MIRROR, SCALE = variant(4, 8) + b"\0\1", variant(5, 8) + b"\0\2", variant(6, 8) + b"\1\x60"
+ULPS, DUPLICATE = variant(0, 10) + b"\0\1\xff\0", variant(1, 10) + b"\1"
+ANTIPODE, NEAR = variant(2, 10) + b"\0", variant(3, 10) + b"\0\x0c\x40\x20\xe0"
+MIDDLE, MIRROR, SCALE = variant(4, 10) + b"\0\1", variant(5, 10) + b"\0\2", variant(6, 10) + b"\1\x60"
+
+ON_CIRCLE = [variant(8, 10) + bytes([0, 1, 2, turn, turn % 3, 2, 255 - turn % 2]) for turn in (40, 90, 140, 190, 240)]
+
+
+def tiny(digits):
+    return variant(9, 10) + bytes([0, digits - 30, 1])
 
 
 def shape(kind, n, pole=AXIS_Z, edits=()):
@@ -48,6 +54,11 @@ def shapes():
     yield "great_circle_and_a_site_an_ulp_off", shape("great_circle", 8, AXIS_Z, [ULPS])
     yield "octahedron_pole_at_a_site", shape("solids", 6, POLE_AT_FIRST)
     yield "random_with_duplicate_antipode_middle", shape("uniform", 9, BISECTOR, [DUPLICATE, ANTIPODE, MIDDLE, MIRROR])
+    for kind in ["uniform", "small_circle", "tilted_circle", "cap_3"]:
+        yield f"{kind}_and_sites_almost_on_its_circles", shape(kind, 5, AXIS_Z, ON_CIRCLE)
+    for kind in ["great_circle", "integers", "solids"]:
+        for digits in (60, 90, 120):
+            yield f"{kind}_off_by_{digits}_bits", shape(kind, 8, AXIS_Z, [tiny(digits)])
     yield "lattice_with_near_duplicates_and_scales", shape("lattice", 9, AXIS_Z, [NEAR, NEAR, ULPS, SCALE])
 
 

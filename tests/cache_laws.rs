@@ -323,6 +323,26 @@ fn gradients_carry_a_slope_from_record_to_record_up_to_the_second_order() {
     assert!(with <= 1.0 && without > 2.0, "{without} without gradients, {with} with them");
 }
 
+/// A gradient is shortened by its luminance, of which blue has little.
+#[test]
+fn no_colour_goes_below_nothing_where_the_luminance_does_not() {
+    let mut field = |direction: DVec3| {
+        let side = f64::from(direction.x > 0.6);
+        Sample { radiance: DVec3::new(1.0, 1.0, side), distance: 1.0 - 0.7 * side }
+    };
+    let sampler = AdaptiveSampler::stratified(1024).unwrap();
+    let gather = sampler.gather(Frame::new(DVec3::Z).unwrap(), &mut field, &mut seeds::rng(5)).unwrap();
+    let mut cache = Cache::new(Validity::new(0.8, 0.05, 0.8).unwrap().gradients(true));
+    cache.insert(DVec3::ZERO, DVec3::Z, *gather.vector()).unwrap();
+    let mut least = f64::INFINITY;
+    for step in 0..100 {
+        let Some(there) = cache.irradiance(DVec3::NEG_X * (0.01 * f64::from(step)), DVec3::Z) else { break };
+        assert!(there.cmpgt(DVec3::ZERO).all(), "{there}");
+        least = least.min(there.z / gather.vector().irradiance().z);
+    }
+    assert!(least < 0.1, "blue must be as good as gone somewhere, but {least} of it is left everywhere");
+}
+
 #[test]
 fn the_faintest_light_is_stored() {
     // Subnormal numbers round as coarsely as they like: n·Φ is not the luminance of E to a part in a million.

@@ -13,11 +13,11 @@ use rand_pcg::Pcg64;
 use statrs::statistics::Statistics;
 use steradian::{
     glam::DVec3,
-    ilv::{AdaptiveSampler, Frame, LightVector, Sample, Weights},
+    ilv::{AdaptiveSampler, Frame, LightVector, Pilot, Sample, Weights},
     solid_angle,
 };
 
-fn samplers() -> [(&'static str, AdaptiveSampler); 6] {
+fn samplers() -> [(&'static str, AdaptiveSampler); 10] {
     let stratified = AdaptiveSampler::stratified(208).unwrap();
     [
         ("stratified 208", stratified),
@@ -26,6 +26,10 @@ fn samplers() -> [(&'static str, AdaptiveSampler); 6] {
         ("fixed 32 x 32", AdaptiveSampler::fixed(32, 32).unwrap()),
         ("paper", AdaptiveSampler::paper()),
         ("paper, leaves", AdaptiveSampler::paper().weights(Weights::LeafMeasure)),
+        ("default", AdaptiveSampler::default()),
+        ("unbiased", AdaptiveSampler::unbiased()),
+        ("unbiased, Voronoi", AdaptiveSampler::unbiased().weights(Weights::MeasureAndVoronoi)),
+        ("default, finer", AdaptiveSampler::default().pilot(Pilot::new(432, 0.01, 4096).unwrap())),
     ]
 }
 

@@ -6,14 +6,16 @@ mod seeds;
 #[allow(dead_code, unused_imports, reason = "uses a part of the tracer")]
 mod tracer;
 
-use bounds::ilv::{STANDARD_ERROR, Z_CRITICAL};
+use std::f64::consts::PI;
+
+use bounds::ilv::{PILOT_STATES, STANDARD_ERROR, Z_CRITICAL};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
 use statrs::statistics::Statistics;
 use steradian::{
     glam::DVec3,
-    ilv::{AdaptiveSampler, Frame, RadianceSource, Refinement, Sample, Weights, Workspace},
+    ilv::{AdaptiveSampler, CellMap, Frame, Pilot, RadianceSource, Refinement, Sample, Weights, Workspace},
     sprt::{Bernoulli, Bounds, Looks, Sprt},
 };
 use tracer::{Scene, SceneSource};
@@ -142,6 +144,23 @@ fn the_standard_error_is_the_scatter_of_gathers_times_what_was_measured() {
         }
     }
     assert!(failures.is_empty(), "{failures:#?}");
+}
+
+/// In a constant field nothing scatters but the cosine, and that where cells are not of equal projected solid angle.
+#[test]
+fn a_pilot_plans_for_the_scatter_of_the_cosine() {
+    let pilot = Pilot::new(108, 0.01, 5000).unwrap();
+    let field = |_: DVec3| Sample { radiance: DVec3::ONE, distance: 1.0 };
+    for map in [CellMap::SolidAngle, CellMap::Balanced] {
+        let sampler = AdaptiveSampler::unbiased().pilot(pilot).map(map);
+        let squares = (0..u64::from(seeds::cases(100))).map(|seed| {
+            let mut rng = Pcg64::seed_from_u64(seeds::seed() ^ seed);
+            let gather = sampler.gather(Frame::new(DVec3::Z).unwrap(), &mut { field }, &mut rng).unwrap();
+            (gather.vector().standard_error() / PI).powi(2)
+        });
+        let stated = squares.collect::<Vec<_>>().iter().mean().sqrt() / pilot.tolerance();
+        assert!((PILOT_STATES.0..PILOT_STATES.1).contains(&stated), "{map:?}: {stated} times the tolerance");
+    }
 }
 
 #[test]

@@ -220,7 +220,7 @@ impl AdaptiveSampler {
         let shot = match &self.plan {
             Plan::OneEach => tracing.one_ray_each(Patchwork::plain(self.map, self.grid)),
             Plan::Sequential(rule) => Splitting::new(&mut tracing, rule).run(self.base_cells()),
-            Plan::Piloted(pilot) => tracing.piloted(self.map, self.base_cells(), pilot, self.weights.shares_measures()),
+            Plan::Piloted(pilot) => tracing.piloted(self.map, self.base_cells(), pilot, self.weights),
         };
         let Tracing { mut rays, values, .. } = tracing;
         workspace.values = values;

@@ -6,7 +6,7 @@ use glam::DVec3;
 use rand::{Rng, RngExt};
 
 use super::{
-    Cell, CellMap, Frame, Gather, GatherError, Pilot, Points, RadianceSource, Ray,
+    Cell, CellMap, Frame, Gather, GatherError, Pilot, Points, RadianceSource, Ray, Weights,
     leaves::Leaves,
     luminance,
     patchwork::Patchwork,
@@ -84,22 +84,24 @@ where
         Ok(Leaves::one_ray_each(grid))
     }
 
-    /// A pilot, and the rays that it asks for; `discard` leaves its own rays out of the estimate.
+    /// A pilot, and the rays that it asks for. Weights that share measures leave its own rays out of the estimate.
     pub fn piloted(
         &mut self,
         map: CellMap,
         cells: Vec<Cell>,
         pilot: &Pilot,
-        discard: bool,
+        weights: Weights,
     ) -> Result<Leaves, GatherError> {
         let per_cell = f64::from(pilot.rays()) / cells.len() as f64;
         let grid = Patchwork::of_counts(map, Pilot::GRID, &[per_cell; Pilot::CELLS]);
         let mut cell_of_ray = Vec::new();
         self.shoot_grid(&grid, |patch| cell_of_ray.push(patch))?;
+        let (normal, discard) = (self.frame.normal(), weights.shares_measures());
+        let values = self.values.iter().zip(&self.rays).map(|(&value, ray)| (value, normal.dot(ray.direction)));
         let mut scatter = [Scatter::default(); Pilot::CELLS];
         for (patch, cell) in cells.iter().enumerate() {
-            let of_patch = cell_of_ray.iter().zip(&self.values).filter(|&(&in_patch, _)| in_patch == patch);
-            scatter[patch] = Scatter::of(cell.projected_solid_angle(), of_patch.map(|(_, &value)| value));
+            let of_patch = cell_of_ray.iter().zip(values.clone()).filter(|&(&in_patch, _)| in_patch == patch);
+            scatter[patch] = weights.scatter(cell, of_patch.map(|(_, value)| value));
         }
         let Some(counts) = pilot.plan(&scatter, discard) else {
             return Ok(Leaves::from_cells(cells, &cell_of_ray, [(grid, 1.0)].into()));

@@ -57,6 +57,22 @@ impl Weights {
         matches!(self, Self::LeafMeasure | Self::MeasureAndVoronoi)
     }
 
+    /// Whether the weights over cells of this map scatter as the cosine does: an equal share over cells that are not of equal
+    /// projected solid angle. A Voronoi weight varies with the rays but adds up over the leaf: only the radiances scatter.
+    fn cosine_scatters(self, map: CellMap) -> bool {
+        self.shares_measures() && map != CellMap::ProjectedSolidAngle
+    }
+
+    /// What rays of a patch say of the light in it, each by its value and its cosine.
+    pub(super) fn scatter(self, patch: &Cell, rays: impl Iterator<Item = (f64, f64)> + Clone) -> Scatter {
+        let map = patch.map();
+        if self.cosine_scatters(map) {
+            Scatter::of(patch.extent(), rays.map(|(value, cos)| value * cos / map.density(cos)))
+        } else {
+            Scatter::of(patch.projected_solid_angle(), rays.map(|(value, _)| value))
+        }
+    }
+
     fn shares_leaves(self) -> bool {
         self.shares_measures() || self == Self::CellMoment
     }
@@ -214,7 +230,7 @@ impl Weighing<'_> {
         let normal = self.frame.normal();
         let y = |ray: u32| luminance(rays[ray as usize].radiance);
         let w = |ray: u32| normal.dot(rays[ray as usize].moment);
-        let cosine_scatters = self.cosine_scatters();
+        let cosine_scatters = self.weights.cosine_scatters(self.leaves.cells[0].map());
         let of_leaf = |(cell, members): (&Cell, &[u32])| {
             let n = members.len() as f64;
             let measure =
@@ -244,12 +260,6 @@ impl Weighing<'_> {
         if self.in_step { variance * IN_STEP } else { variance }
     }
 
-    /// Whether the weights scatter as the cosine does: an equal share over cells that are not of equal projected solid angle. A
-    /// Voronoi weight varies with the rays but adds up over the leaf: only the radiances scatter.
-    fn cosine_scatters(&self) -> bool {
-        self.weights.shares_measures() && self.leaves.cells[0].map() != CellMap::ProjectedSolidAngle
-    }
-
     /// Patch by patch, as a [`Pilot`](super::Pilot) puts it.
     fn variance_of_patches(&self, rays: &[Ray]) -> f64 {
         let (grids, normal) = (&self.leaves.grids, self.frame.normal());
@@ -257,18 +267,12 @@ impl Weighing<'_> {
         let of_patch = |(cell, members): (&Cell, &[u32])| {
             let early = members.partition_point(|&ray| (ray as usize) < first);
             let counted = if share > 0.0 { members } else { &members[early..] };
-            let y = |&ray: &u32| luminance(rays[ray as usize].radiance);
             let shares = [(share, early as f64), (1.0 - share, (members.len() - early) as f64)];
-            let scatter = if self.cosine_scatters() {
-                let weighed = |ray: &u32| {
-                    let cos = normal.dot(rays[*ray as usize].direction);
-                    y(ray) * cos / cell.map().density(cos)
-                };
-                Scatter::of(cell.extent(), counted.iter().map(weighed))
-            } else {
-                Scatter::of(cell.projected_solid_angle(), counted.iter().map(y))
+            let value = |&ray: &u32| {
+                let ray = &rays[ray as usize];
+                (luminance(ray.radiance), normal.dot(ray.direction))
             };
-            scatter.error(shares)
+            self.weights.scatter(cell, counted.iter().map(value)).error(shares)
         };
         self.leaves.cells.iter().zip(self.leaves.members()).map(of_patch).sum()
     }

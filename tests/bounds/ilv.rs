@@ -43,6 +43,10 @@ pub const STANDARD_ERROR: &[(&str, [f64; 4])] = &[
     ("unbiased", [1.256, 1.110, 1.495, 1.222]),
 ];
 
+/// Root mean square of the standard error that piloted gathers state, over the tolerance they are planned for: rows and columns are
+/// whole numbers, and the pilot knows the scatter to a tenth.
+pub const PILOT_STATES: (f64, f64) = (0.8, 1.1);
+
 /// n(E/E_true − 1) in a constant field by Voronoi area times cosine, n = 120 independent rays: 1 for large n; measured 0.95
 /// to 1.03.
 pub const AREA_BIAS: (f64, f64) = (0.99, 0.06);
@@ -242,4 +246,12 @@ pub const GRADIENT: &[(&str, &str, f64, f64, f64)] = &[
     ("wall", "paper", 1.162, 0.052, 0.053),
     ("rectangle", "paper, leaves", 0.978, 0.102, 0.11),
     ("wall", "paper, leaves", 1.162, 0.052, 0.053),
+    ("rectangle", "default", 0.966, 0.054, 0.068),
+    ("wall", "default", 1.264, 0.027, 0.059),
+    ("rectangle", "unbiased", 0.97, 0.067, 0.082),
+    ("wall", "unbiased", 1.223, 0.043, 0.063),
+    ("rectangle", "unbiased, Voronoi", 0.984, 0.046, 0.049),
+    ("wall", "unbiased, Voronoi", 1.168, 0.026, 0.031),
+    ("rectangle", "default, finer", 0.996, 0.014, 0.017),
+    ("wall", "default, finer", 1.12, 0.008, 0.013),
 ];

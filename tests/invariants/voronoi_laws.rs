@@ -3,7 +3,7 @@
 //! The user has `bound` of tests/bounds/voronoi.rs, and the modules `cells` and `circles` of tests/oracles.
 #![allow(dead_code, reason = "each user takes a part of it")]
 
-use std::f64::consts::TAU;
+use std::{collections::BTreeSet, f64::consts::TAU};
 
 use num_bigint::Sign;
 use steradian::glam::DVec3;
@@ -112,7 +112,8 @@ fn perimeter(corners: &[DVec3]) -> f64 {
     corners.iter().zip(ends).map(|(start, end)| start.distance(*end) + f64::EPSILON).sum()
 }
 
-/// No site is inside the circle through the three sites of any corner.
+/// No site is inside the circle through the three sites of any corner, and no edge has both ends in one: so that the diagram has
+/// the right corners, all of them and no others.
 ///
 /// Sites of components below 2⁻¹⁰²² of the largest one are left out: a diagram rounds these, as documented.
 pub fn empty_circles(sites: &[DVec3]) {
@@ -121,14 +122,22 @@ pub fn empty_circles(sites: &[DVec3]) {
         return;
     }
     let whole = diagram(&sites, None);
+    let mut seen = BTreeSet::new();
     for cell in whole.cells() {
-        let neighbors = cell.neighbors();
-        for k in 0..cell.vertices().len() {
-            let before = neighbors[(k + neighbors.len() - 1) % neighbors.len()];
-            let [a, b, c] = [cell.site(), before as usize, neighbors[k] as usize];
-            for (p, &site) in sites.iter().enumerate() {
-                let side = circles::side(sites[a], sites[b], sites[c], site);
-                assert_ne!(side, Sign::Plus, "site {p} is inside the circle of {a}, {b} and {c} of {sites:?}");
+        let len = cell.vertices().len();
+        let neighbor = |k: usize| cell.neighbors()[k % len] as usize;
+        for k in 0..len {
+            let [a, b, c, next] = [cell.site(), neighbor(k + len - 1), neighbor(k), neighbor(k + 1)];
+            let side = |p: usize| circles::side(sites[a], sites[b], sites[c], sites[p]);
+            let mut corner = [a, b, c];
+            corner.sort_unstable();
+            if seen.insert(corner) {
+                for p in (0..sites.len()).filter(|p| !corner.contains(p)) {
+                    assert_ne!(side(p), Sign::Plus, "site {p} is inside the circle of {a}, {b} and {c} of {sites:?}");
+                }
+            }
+            if a < c && next != b {
+                assert_eq!(side(next), Sign::Minus, "the edge of {a} and {c} is a point for {sites:?}");
             }
         }
     }

@@ -1,6 +1,8 @@
 //! Hard shapes of sites, with edits that make them harder.
 #![allow(dead_code, reason = "each target takes a part of it")]
 
+use std::f64::consts::TAU;
+
 use arbitrary::Arbitrary;
 use steradian::glam::DVec3;
 
@@ -42,6 +44,12 @@ enum Edit {
     /// Multiplies by a power of two.
     Scale(u8, i8),
     Remove(u8),
+    /// Adds a point of the circle through three sites, at this many parts of 256 of a turn, rounded and moved by up to three
+    /// units in the last place: what doubles cannot tell from a fourth on the circle.
+    OnCircle([u8; 3], u8, [i8; 3]),
+    /// Makes components that are zero as small as 2⁻³⁰ to 2⁻¹⁵⁷, those of this site or of all: sites of one circle leave it by what
+    /// twofold numbers hardly tell.
+    Tiny(u8, u8, bool),
 }
 
 impl Input {
@@ -70,9 +78,22 @@ impl Input {
 
 impl Edit {
     fn apply(self, sites: &mut Vec<DVec3>, most: usize) {
+        if let Self::Tiny(_, digits, true) = self {
+            (0..).zip(sites).for_each(|(i, site)| *site = tiny(*site, i, digits));
+            return;
+        }
         let place = |i: u8| usize::from(i) % sites.len();
         let at = |i: u8| sites[place(i)];
         let (changed, site) = match self {
+            Self::Tiny(i, digits, _) => (Some(place(i)), tiny(at(i), i, digits)),
+            Self::OnCircle(three, turn, by) => {
+                let [a, b, c] = three.map(|i| at(i).normalize_or_zero());
+                let axis = (b - a).cross(c - a).normalize_or_zero();
+                let (sine, cosine) = (TAU * f64::from(turn) / 256.0).sin_cos();
+                let centre = axis * axis.dot(a);
+                let site = centre + (a - centre) * cosine + axis.cross(a) * sine;
+                (None, from_each(site, by.map(|k| k % 4), ulps))
+            }
             Self::Ulps(i, by) => (Some(place(i)), from_each(at(i), by, ulps)),
             Self::Scale(i, power) => (Some(place(i)), at(i) * 2f64.powi(power.into())),
             Self::Remove(i) if sites.len() > 1 => {
@@ -109,6 +130,13 @@ fn is_site(v: DVec3) -> bool {
 
 fn from_each(v: DVec3, by: [i8; 3], change: fn(f64, i8) -> f64) -> DVec3 {
     DVec3::new(change(v.x, by[0]), change(v.y, by[1]), change(v.z, by[2]))
+}
+
+/// `v` with a power of two that depends on `i` in place of each zero.
+fn tiny(v: DVec3, i: u8, digits: u8) -> DVec3 {
+    let size = v.abs().max_element() * 2f64.powi(-30 - i32::from(digits % 128) - i32::from(i / 2 % 4));
+    let small = if i % 2 == 0 { size } else { -size };
+    v.map(|x| if x == 0.0 { small } else { x })
 }
 
 fn ulps(x: f64, by: i8) -> f64 {
