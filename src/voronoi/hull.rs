@@ -69,8 +69,6 @@ pub(super) struct Hull {
     moved: Vec<DVec3>,
     /// The rays of sites on a circle.
     pub(super) rays: Vec<Ray>,
-    /// Places of facets that have none.
-    spare: Vec<u32>,
     pub(super) buffers: Buffers,
 }
 
@@ -84,13 +82,13 @@ impl Hull {
     /// # Errors
     /// [`Inconsistent`](VoronoiError::Inconsistent), which exact decisions exclude.
     pub fn build(&mut self, sites: Sites<'_>) -> Result<Shape, VoronoiError> {
+        self.facets.clear();
+        self.planes.clear();
         self.ring.clear();
         self.twins.clear();
         let start = match start(sites) {
             Start::Solid(start) => start,
             other => {
-                self.facets.clear();
-                self.planes.clear();
                 let Start::Circle(first, second, third) = other else {
                     self.twins.extend((1..sites.len() as u32).map(|site| (site, 0)));
                     return Ok(Shape::Point);
@@ -99,9 +97,8 @@ impl Hull {
                 return Ok(Shape::Circle);
             }
         };
-        // All of them are written before they are read.
-        self.facets.resize(2 * sites.len(), Facet::NEW);
-        self.planes.resize(2 * sites.len(), DVec3::ZERO);
+        self.facets.reserve(2 * sites.len());
+        self.planes.reserve(2 * sites.len());
         let mut moved = core::mem::take(&mut self.moved);
         moved.clear();
         if let Some(centre) = centre(start.map(|site| sites.unit(site))) {
@@ -120,32 +117,29 @@ impl Hull {
 
     fn add_all(&mut self, points: &Points<'_>) -> Result<(), VoronoiError> {
         self.set_first_facets(points);
-        let mut last = Ok(2 * points.start[0]);
+        let mut last = Ok(0);
         order::each_in_rounds(points.sites.len(), |site| {
             if let Ok(near) = last {
                 last = self.insert(points, site, near);
             }
         });
-        last?;
-        self.remove_spare_places(points.start);
-        Ok(())
+        last.map(|_| ())
     }
 
     /// The tetrahedron: the base a b c, counter-clockwise seen from outside, and the fourth site.
     fn set_first_facets(&mut self, points: &Points<'_>) {
         let [a, b, c, d] = points.start;
-        let slots = [a, b, c, d].map(|site| 2 * site as usize);
-        for (slot, sites) in slots.into_iter().zip([[a, b, c], [b, a, d], [a, c, d], [c, b, d]]) {
+        for sites in [[a, b, c], [b, a, d], [a, c, d], [c, b, d]] {
             let origin = points.points[sites[2] as usize];
             let [d, e] = [0, 1].map(|k| edge(points.points, sites[k], origin));
             let (w, error) = plane(points.scale, origin, d, e);
-            self.facets[slot] = Facet { sites, error, ..Facet::NEW };
-            self.planes[slot] = w;
+            self.facets.push(Facet { sites, error, ..Facet::NEW });
+            self.planes.push(w);
         }
-        for f in slots {
+        for f in 0..4 {
             for e in 0..3 {
                 let (from, to) = (self.facets[f].sites[(e + 1) % 3], self.facets[f].sites[(e + 2) % 3]);
-                for g in slots {
+                for g in 0..4 {
                     for h in 0..3 {
                         let other = &self.facets[g].sites;
                         if other[(h + 1) % 3] == to && other[(h + 2) % 3] == from {
@@ -153,23 +147,6 @@ impl Hull {
                         }
                     }
                 }
-            }
-        }
-    }
-
-    /// Moves the last facets to the places that are free: of each of the first four sites one, of those without a cell two.
-    fn remove_spare_places(&mut self, start: [u32; 4]) {
-        let Self { facets, planes, twins, spare, .. } = self;
-        spare.clear();
-        spare.extend(start.map(|site| 2 * site + 1));
-        spare.extend(twins.iter().flat_map(|&(site, _)| [2 * site, 2 * site + 1]));
-        spare.sort_unstable();
-        while let Some(place) = spare.pop() {
-            facets.swap_remove(place as usize);
-            planes.swap_remove(place as usize);
-            let Some(moved) = facets.get(place as usize) else { continue };
-            for (k, across) in (0..).zip(moved.across) {
-                facets[(across >> 2) as usize].across[(across & 3) as usize] = 4 * place + k;
             }
         }
     }

@@ -12,7 +12,7 @@ use super::sites::Sites;
 pub(super) struct Points<'a> {
     pub sites: Sites<'a>,
     pub points: &'a [DVec3],
-    /// What the error of a plane is multiples of.
+    /// 111 u m², of which the errors of planes are multiples: see `plane`.
     pub scale: f64,
     /// The sites of the first four facets.
     pub start: [u32; 4],
@@ -93,10 +93,9 @@ impl Hull {
             let mut next = facet;
             for across in here.across {
                 let there = self.planes[(across >> 2) as usize].dot(point);
-                // Which is the largest is a matter of chance: no branch.
-                let larger = u32::from(there > value).wrapping_neg();
-                next ^= (next ^ across >> 2) & larger;
-                value = if there > value { there } else { value };
+                if there > value {
+                    (next, value) = (across >> 2, there);
+                }
             }
             if next == facet {
                 break;
@@ -201,13 +200,16 @@ impl Hull {
                 across = open[left];
             }
         }
-        (hole[found], hole[found + 1], hole[found + 2]) = (2 * site, 2 * site + 1, hole[0]);
+        let end = facets.len() as u32;
+        (hole[found], hole[found + 1], hole[found + 2]) = (end, end + 1, hole[0]);
         Some(closed)
     }
 
     /// Joins `site` to the `count` edges on the rim of the hole; returns one of the new facets.
     #[inline(always)]
     fn fill(&mut self, points: &Points<'_>, site: u32, point: DVec3, count: usize) -> u32 {
+        self.facets.extend([Facet::NEW; 2]);
+        self.planes.extend([DVec3::ZERO; 2]);
         let facets = &mut self.facets[..];
         let planes = &mut self.planes[..facets.len()];
         let (hole, rim) = (&self.buffers.hole[..count + 1], &self.buffers.rim[..count]);
@@ -254,7 +256,8 @@ fn others(k: u32) -> (usize, usize) {
 /// With u = 2⁻⁵³ and all components below m: points are right to u m, so that edges d, e are right to 4 u m, their
 /// product n to 24 u m (|d| + |e|) + 18 u |d| |e| in the sum of its components, at most 42 u m (|d| + |e|); n·(q − c)
 /// is then right to twice m times that and 5 u m |n|, |n| ≤ |d| |e|; division and w·q add 4 u m |w|. All divided by
-/// n·c, whose own error moves no sign while it is positive.
+/// n·c, whose own error moves no sign while it is positive. As |d| and |e| are below 6 m, 9 u m |d| |e| is at most
+/// 27 u m² (|d| + |e|): with 84 u m² (|d| + |e|) that is `scale` times |d| + |e|, over n·c.
 #[inline(always)]
 pub(super) fn plane(scale: f64, c: DVec3, (d, d_sum): (DVec3, f64), (e, e_sum): (DVec3, f64)) -> (DVec3, f32) {
     let normal = d.cross(e);
