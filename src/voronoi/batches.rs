@@ -80,7 +80,7 @@ impl Outlines {
             let offset = planes[spoke.vertex as usize] + offsets[spoke.lowest as usize];
             (*x, *y, *z) = (offset.x, offset.y, offset.z);
         }
-        self.lanes.compute(all.len());
+        self.lanes.compute(all.len(), self.spokes.cells());
     }
 
     /// Solid angle and vector moment of a cell of ordinary corners above the horizon, unless it is thin or has edges that
