@@ -22,7 +22,7 @@ impl Outlines {
             let mut start = walk.diagram.neighbors.len();
             for k in 0..self.spokes.cells().len() {
                 let around = self.spokes.cells()[k];
-                if let Some((solid_angle, vector_moment)) = self.ordinary_cell(around) {
+                if let Some((solid_angle, vector_moment)) = self.ordinary_cell(around, walk) {
                     walk.finish(around.site, start, start + around.count, solid_angle, vector_moment);
                     start += around.count;
                 } else {
@@ -78,14 +78,17 @@ impl Outlines {
             let offset = planes[spoke.vertex as usize] + offsets[spoke.lowest as usize];
             (*x, *y, *z) = (offset.x, offset.y, offset.z);
         }
-        self.lanes.compute(all.len());
+        self.lanes.compute(all.len(), self.spokes.cells());
     }
 
     /// Solid angle and vector moment of a cell of ordinary corners above the horizon, unless it is thin or has edges that
     /// may have no length.
     #[inline(always)]
-    fn ordinary_cell(&self, around: Around) -> Option<(f64, DVec3)> {
-        (self.spokes.all.len() <= LANES).then(|| self.lanes.cell(around.start, around.count)).flatten()
+    fn ordinary_cell(&self, around: Around, walk: &Walk<'_>) -> Option<(f64, DVec3)> {
+        let spokes = &self.spokes.all[around.start..around.start + around.count];
+        let classes = spokes.iter().fold(0, |classes, spoke| classes | walk.classes[spoke.vertex as usize]);
+        let is_ordinary = classes == ABOVE && self.spokes.all.len() <= LANES;
+        is_ordinary.then(|| self.lanes.cell(around.start, around.count)).flatten()
     }
 
     /// Writes down the outlines of ordinary cells.

@@ -51,7 +51,7 @@ pub(super) struct Batch<const N: usize = BATCH> {
     below: [f64; N],
 }
 
-/// The class of a facet's corner, and, if that is `ABOVE`, the corner less the first of its sites, else NaN.
+/// The class of a facet's corner, and, if that is `ABOVE`, the corner less the first of its sites, else zero.
 #[cold]
 pub(super) fn from_all_sites([a, b, c]: [u32; 3], sites: Sites<'_>, pole: Option<DVec3>) -> (Class, DVec3) {
     let mut batch = Batch::<4>::default();
@@ -64,7 +64,7 @@ pub(super) fn from_all_sites([a, b, c]: [u32; 3], sites: Sites<'_>, pole: Option
             return (class, if class == ABOVE { offset + sites.offset(site, a) } else { offset });
         }
     }
-    (SPECIAL, DVec3::NAN)
+    (SPECIAL, DVec3::ZERO)
 }
 
 /// The first `count` corners of a batch, and up to three more.
@@ -135,13 +135,13 @@ impl<const N: usize> Batch<N> {
         }
     }
 
-    /// The class and the corner less the site, or NaN if the class is `BELOW`; none if doubles are not enough.
+    /// The class and the corner less the site, or zero if the class is `BELOW`; none if doubles are not enough.
     #[inline(always)]
     pub fn corner(&self, lane: usize) -> Option<(Class, DVec3)> {
         if self.above[lane] >= 0.0 {
             return Some((ABOVE, DVec3::new(self.offset[0][lane], self.offset[1][lane], self.offset[2][lane])));
         }
-        (self.below[lane] > 0.0).then_some((BELOW, DVec3::NAN))
+        (self.below[lane] > 0.0).then_some((BELOW, DVec3::ZERO))
     }
 }
 

@@ -9,7 +9,7 @@ use super::measure::is_thin;
 use super::ordinary::{
     ALL_TERMS, COEFFICIENTS, FEW_TERMS, SMALL, SOME_TERMS, Sum, arc_over_sine_less_one, power_series, small_arctangent,
 };
-use super::spokes::{CELLS, STEPS};
+use super::spokes::{Around, CELLS, STEPS};
 use crate::solid_angle::{Real, dispatch, dispatch::Kernel};
 
 /// Most lanes.
@@ -67,34 +67,45 @@ impl Lanes {
         }
     }
 
-    /// From the second of `count` lanes on: the corners less their sites, or NaN if these are not ordinary ones.
+    /// From the second of `count` lanes on: the corners less their sites.
     pub fn offsets(&mut self, count: usize) -> [&mut [f64]; 3] {
         self.offset.each_mut().map(|column| &mut column[1..count])
     }
 
     /// Computes the edges from the first `count` corners, but for the last of a cell, which mean nothing.
-    pub fn compute(&mut self, count: usize) {
-        dispatch::run(Compute { lanes: self, count });
+    pub fn compute(&mut self, count: usize, cells: &[Around]) {
+        dispatch::run(Compute { lanes: self, count, cells });
     }
 
     #[inline(always)]
-    fn compute_all(&mut self, count: usize) {
-        let last = count - 1;
-        let count = count.next_multiple_of(4).min(LANES + 3);
+    fn compute_all(&mut self, count: usize, cells: &[Around]) {
+        let (last, count) = (count, count.next_multiple_of(4).min(LANES + 3));
         self.compute_chords(count);
+        for around in cells {
+            // From one cell to the next: as if it were the edge before, so that no length is new.
+            let end = around.start + around.count;
+            self.chord[end] = self.chord[end - 1];
+        }
         let longest = 0.25 * largest(&self.chord[..count]);
         if longest <= FEW_TERMS {
             self.compute_bulges(count, |s| power_series(s, &COEFFICIENTS[..4]));
         } else if longest <= SOME_TERMS {
             self.compute_bulges(count, |s| power_series(s, &COEFFICIENTS[..8]));
-        } else if longest <= ALL_TERMS {
-            self.compute_bulges(count, |s| power_series(s, &COEFFICIENTS));
         } else {
-            self.compute_bulges(count, arc_over_sine_less_one);
+            self.compute_bulges(count, |s| power_series(s, &COEFFICIENTS));
+        }
+        if longest > ALL_TERMS {
+            for around in cells {
+                for k in around.start..around.start + around.count {
+                    if 0.25 * self.chord[k] > ALL_TERMS {
+                        self.bulge[k] = arc_over_sine_less_one(0.25 * self.chord[k]);
+                    }
+                }
+            }
         }
         self.compute_triangles(count);
         self.has_small_tangents = largest(&self.tangent[..count]) <= SMALL;
-        self.has_lengths = smallest(&self.chord[..last]) > largest(&self.square[..count]) * SURE;
+        self.has_lengths = smallest(&self.chord[1..last]) > largest(&self.square[..count]) * SURE;
     }
 
     #[inline(always)]
@@ -132,8 +143,8 @@ impl Lanes {
         }
     }
 
-    /// Solid angle and vector moment of the cell of the `count` corners from `start` on, unless it is thin, or has edges
-    /// of no sure length or corners that are not ordinary.
+    /// Solid angle and vector moment of the cell of the `count` corners from `start` on, unless it is thin or has edges
+    /// of no sure length.
     #[inline(always)]
     pub fn cell(&self, start: usize, count: usize) -> Option<(f64, DVec3)> {
         let (mut half_angle, mut moment, mut reach) = (0.0, DVec3::ZERO, 0.0);
@@ -144,8 +155,7 @@ impl Lanes {
         }
         let solid_angle = if self.has_small_tangents { 2.0 * half_angle } else { self.solid_angle(start, count) };
         let has_lengths = self.has_lengths || (start..start + count).all(|k| self.chord[k] > self.square[k] * SURE);
-        let good = solid_angle >= 0.0 && has_lengths && !is_thin(solid_angle, reach);
-        good.then_some((solid_angle, 0.5 * moment))
+        (has_lengths && !is_thin(solid_angle, reach)).then_some((solid_angle, 0.5 * moment))
     }
 
     #[inline(never)]
@@ -164,6 +174,7 @@ const SURE: f64 = SURE_LENGTH * SURE_LENGTH;
 struct Compute<'a> {
     lanes: &'a mut Lanes,
     count: usize,
+    cells: &'a [Around],
 }
 
 impl Kernel for Compute<'_> {
@@ -171,7 +182,7 @@ impl Kernel for Compute<'_> {
 
     #[inline(always)]
     fn run<T: Real>(self) {
-        self.lanes.compute_all(self.count);
+        self.lanes.compute_all(self.count, self.cells);
     }
 }
 
@@ -200,4 +211,78 @@ fn smallest(column: &[f64]) -> f64 {
         }
     }
     smallest.into_iter().fold(rest, |a, b| if b < a { b } else { a })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::ordinary::Side;
+    use super::*;
+
+    /// Cells of 3, 4, … corners around different sites, out to `size`, with their places.
+    fn cells(size: f64) -> (Lanes, Vec<Around>, Vec<(DVec3, Vec<DVec3>)>) {
+        let mut lanes = Lanes::default();
+        let (mut around, mut outlines, mut start) = (Vec::new(), Vec::new(), 1);
+        for site in 0..13 {
+            let unit = DVec3::new(0.3 * f64::from(site) - 2.0, 1.0, 0.7).normalize();
+            let (s, t) = unit.any_orthonormal_pair();
+            let count = 3 + site as usize;
+            let corner = |k: usize| {
+                let (sine, cosine) = (k as f64 * std::f64::consts::TAU / count as f64).sin_cos();
+                let reach = size * (1.0 + 0.1 * ((k * k) % 5) as f64);
+                (unit + (cosine * s + sine * t) * reach).normalize() - unit
+            };
+            let corners: Vec<DVec3> = (0..count).map(corner).collect();
+            lanes.set_site(start, start + count, unit);
+            for k in 0..=count {
+                for (column, offset) in lanes.offset.iter_mut().zip(corners[k % count].to_array()) {
+                    column[start + k] = offset;
+                }
+            }
+            around.push(Around { site, start, count });
+            outlines.push((unit, corners));
+            start += count + 1;
+        }
+        (lanes, around, outlines)
+    }
+
+    /// Sizes for each number of terms of the series.
+    const SIZES: [f64; 5] = [1e-7, 1e-3, 0.05, 0.2, 0.6];
+
+    #[test]
+    fn cells_side_by_side_measure_the_same_as_one_by_one() {
+        for size in SIZES {
+            let (mut lanes, around, outlines) = cells(size);
+            let count = around.iter().map(|around| around.count + 1).sum::<usize>() + 1;
+            lanes.compute(count, &around);
+            for (around, (unit, corners)) in around.iter().zip(&outlines) {
+                let mut sum = Sum::default();
+                for (k, &d) in corners.iter().enumerate() {
+                    let e = corners[(k + 1) % corners.len()];
+                    sum.add(&Side::new(*unit, unit + d, d, e, d.length_squared() + e.length_squared()));
+                }
+                let (solid_angle, moment) = lanes.cell(around.start, around.count).expect("the cell is not thin");
+                let want = sum.solid_angle();
+                assert!((solid_angle - want).abs() <= 4e-15 * want, "{size}: {solid_angle} for {want}");
+                let off = (moment - sum.vector_moment()).abs().max_element();
+                assert!(off <= 4e-15 * want, "{size}: {moment} is {off:e} off");
+            }
+        }
+    }
+
+    #[test]
+    fn every_processor_gives_the_same_bits() {
+        for size in SIZES {
+            let (mut lanes, around, _) = cells(size);
+            let mut plain = lanes.clone();
+            let count = around.iter().map(|around| around.count + 1).sum::<usize>() + 1;
+            lanes.compute(count, &around);
+            plain.compute_all(count, &around);
+            for around in around {
+                let [a, b] = [&lanes, &plain].map(|lanes| lanes.cell(around.start, around.count));
+                let bits =
+                    |(solid_angle, moment): (f64, DVec3)| [solid_angle, moment.x, moment.y, moment.z].map(f64::to_bits);
+                assert_eq!(a.map(bits), b.map(bits));
+            }
+        }
+    }
 }
