@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::order;
 use super::ray::Ray;
-use super::twofold::{Twofold3, length_defect, ordered_sum3};
+use super::twofold::{Twofold3, nearly_unit};
 
 /// What the work on each site needs often: unit vectors. The rays themselves are made anew where it takes them.
 #[derive(Clone, Copy, Debug)]
@@ -84,8 +84,7 @@ impl<'a> Sites<'a> {
 #[inline(always)]
 fn unit_vector(site: DVec3) -> (DVec3, DVec3) {
     if (site.length_squared() - 1.0).abs() < NEARLY {
-        let (site, excess) = (site + DVec3::ZERO, length_defect(site));
-        return ordered_sum3(site, DVec3::ZERO - site * (0.5 * excess - 0.375 * excess * excess));
+        return nearly_unit(site + DVec3::ZERO, DVec3::ZERO);
     }
     let ray = Ray::new(site);
     (ray.unit, ray.rest)
