@@ -218,8 +218,11 @@ mod tests {
     use super::super::ordinary::Side;
     use super::*;
 
+    /// A site, and the corners less that.
+    type Outline = (DVec3, Vec<DVec3>);
+
     /// Cells of 3, 4, … corners around different sites, out to `size`, with their places.
-    fn cells(size: f64) -> (Lanes, Vec<Around>, Vec<(DVec3, Vec<DVec3>)>) {
+    fn cells(size: f64) -> (Lanes, Vec<Around>, Vec<Outline>) {
         let mut lanes = Lanes::default();
         let (mut around, mut outlines, mut start) = (Vec::new(), Vec::new(), 1);
         for site in 0..13 {

@@ -162,7 +162,7 @@ impl Spokes {
     fn number(&mut self, starts: &[u32; CELLS], facets: &mut [Facet], sites: Sites<'_>) {
         self.count = 0;
         let mut end = 1;
-        for i in 0..self.len {
+        for (i, &first) in starts.iter().enumerate().take(self.len) {
             let Around { site, count, .. } = self.cells[i];
             self.marks[site as usize] = self.vertices;
             let start = end;
@@ -172,7 +172,7 @@ impl Spokes {
                 self.add(start, site, &steps[..count.min(STEPS)], facets, sites);
                 end += count;
             } else {
-                let mut edge = starts[i];
+                let mut edge = first;
                 loop {
                     self.reserve(end + 2);
                     let facet = &facets[(edge >> 2) as usize];
@@ -180,7 +180,7 @@ impl Spokes {
                     self.add(end, site, &[Step { edge, neighbor: neighbor(facet, edge) }], facets, sites);
                     end += 1;
                     edge = next;
-                    if edge == starts[i] {
+                    if edge == first {
                         break;
                     }
                 }
