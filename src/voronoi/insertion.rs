@@ -65,10 +65,15 @@ impl Hull {
     /// Inserts `site`, starting to look for its place at a facet; returns one of its facets.
     pub(super) fn insert(&mut self, points: &Points<'_>, site: u32, near: u32) -> Result<u32, VoronoiError> {
         let point = points.points[site as usize];
+        let inconsistent = Err(VoronoiError::Inconsistent { index: points.sites.index(site) });
         match self.locate(points, site, point, near) {
             Place::Beyond(facet) => loop {
                 if let Some(count) = self.dig(points, site, point, facet) {
                     break Ok(self.fill(points, site, point, count));
+                }
+                // A hole of more facets than there are.
+                if self.buffers.hole.len() >= self.facets.len() + ROOM {
+                    break inconsistent;
                 }
                 self.buffers.grow();
             },
@@ -78,7 +83,7 @@ impl Hull {
                 }
                 Ok(facet)
             }
-            Place::None => Err(VoronoiError::Inconsistent { index: points.sites.index(site) }),
+            Place::None => inconsistent,
         }
     }
 
@@ -181,7 +186,7 @@ impl Hull {
         loop {
             let there = &facets[(across >> 2) as usize];
             if points.is_beyond(there, planes[(across >> 2) as usize], site, point) {
-                if found + 4 > room {
+                if found + ROOM > room {
                     return None;
                 }
                 hole[found] = across >> 2;
@@ -242,6 +247,9 @@ impl Buffers {
         }
     }
 }
+
+/// Places behind the facets of a hole that the search and the new facets take.
+const ROOM: usize = 4;
 
 /// The two indices after `k`.
 #[inline(always)]
