@@ -38,7 +38,10 @@ impl Outlines {
         self.spokes.each_lowest(|site, vertices| {
             let unit = sites.unit(site);
             for (corner, class) in hull.planes[vertices.clone()].iter_mut().zip(&classes[vertices]) {
-                *corner += if class & CLASSES == ABOVE { unit } else { DVec3::ZERO };
+                if class & CLASSES == ABOVE {
+                    let sum = *corner + unit;
+                    *corner = sum * (1.5 - 0.5 * sum.length_squared());
+                }
             }
         });
     }

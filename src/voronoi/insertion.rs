@@ -12,7 +12,7 @@ use super::sites::Sites;
 pub(super) struct Points<'a> {
     pub sites: Sites<'a>,
     pub points: &'a [DVec3],
-    /// 111 u m², of which the errors of planes are multiples: see `plane`.
+    /// 111 u m² and a little, of which the errors of planes are multiples: see `plane`.
     pub scale: f64,
     /// The sites of the first four facets.
     pub start: [u32; 4],
@@ -41,7 +41,7 @@ enum Place {
 impl<'a> Points<'a> {
     pub fn new(sites: Sites<'a>, points: &'a [DVec3], start: [u32; 4]) -> Self {
         let size = points.iter().fold(0.0, |size: f64, point| size.max(point.abs().max_element()));
-        Self { sites, points, scale: ROUNDOFF * 111.0 * size * size, start }
+        Self { sites, points, scale: ROUNDOFF * 111.0 * size * (size + SMALLEST_SIZE), start }
     }
 
     /// Whether `site`, at `point`, is beyond the plane `w` of a facet.
@@ -261,7 +261,8 @@ fn others(k: u32) -> (usize, usize) {
 /// The plane w·x = 1 through `c` and the points at `d` and `e` from it, counter-clockwise seen from outside, and the
 /// error of w·q where q is near the plane; |d| and |e| are sums of components.
 ///
-/// With u = 2⁻⁵³ and all components below m: points are right to u m, so that edges d, e are right to 4 u m, their
+/// With u = 2⁻⁵³ and all components below m: points are right to u m, or to 2⁻⁹⁹ where m is below `SMALLEST_SIZE`, which is
+/// added to one m then; so that edges d, e are right to 4 u m, their
 /// product n to 24 u m (|d| + |e|) + 18 u |d| |e| in the sum of its components, at most 42 u m (|d| + |e|); n·(q − c)
 /// is then right to twice m times that and 5 u m |n|, |n| ≤ |d| |e|; division and w·q add 4 u m |w|. All divided by
 /// n·c, whose own error moves no sign while it is positive. As |d| and |e| are below 6 m, 9 u m |d| |e| is at most
@@ -288,6 +289,9 @@ pub(super) fn edge(points: &[DVec3], site: u32, from: DVec3) -> (DVec3, f64) {
 
 /// Below this, products may have underflowed.
 const SMALLEST_HEIGHT: f64 = 1e-200;
+
+/// 2⁻⁴⁶: u times it is the error of unit vectors.
+const SMALLEST_SIZE: f64 = 1.0 / (1u64 << 46) as f64;
 
 /// 2⁻⁵³, and a little for the error's own rounding.
 const ROUNDOFF: f64 = 1.01 / 9_007_199_254_740_992.0;

@@ -86,6 +86,8 @@ impl Lanes {
             let end = around.start + around.count;
             self.chord[end] = self.chord[end - 1];
         }
+        // Nor do those behind the last, from cells before.
+        self.chord[last..count].fill(0.0);
         let longest = 0.25 * largest(&self.chord[..count]);
         if longest <= FEW_TERMS {
             self.compute_bulges(count, |s| power_series(s, &COEFFICIENTS[..4]));
@@ -104,6 +106,8 @@ impl Lanes {
             }
         }
         self.compute_triangles(count);
+        cells.iter().for_each(|around| self.tangent[around.start + around.count] = 0.0);
+        self.tangent[last..count].fill(0.0);
         self.has_small_tangents = largest(&self.tangent[..count]) <= SMALL;
         self.has_lengths = smallest(&self.chord[1..last]) > largest(&self.square[..count]) * SURE;
     }

@@ -163,15 +163,17 @@ impl Measure {
         let longest = (1..normals.len()).fold(0, |best, k| if length(k) > length(best) { k } else { best });
         let (start, stop) = (corners[longest].twofold(), end(longest).twofold());
         // Of the two summands one vanishes for half a circle and the other one for a point.
-        let apex = stop.add(start.negate()).cross(normals[longest]).add(start.add(stop)).unit();
+        let middle = start.add(stop);
+        let is_long = middle.hi().length_squared() < 1.0;
+        let apex = if is_long { stop.add(start.negate()).cross(normals[longest]).add(middle) } else { middle }.unit();
         let (mut re, mut im) = (1.0, 0.0);
         for (k, normal) in normals.iter().enumerate().filter(|&(k, _)| k != longest) {
             let (start, stop) = (&corners[k], end(k));
             let (chord, sum) = (stop.minus(start), start.unit + stop.unit);
             let (two_sines, two_cosines) = (chord.length(), sum.length());
             // The middle as above: the two summands are parallel.
-            let middle = (chord.cross(normal.hi()) + sum) / (two_sines + two_cosines);
-            let numerator = 0.5 * apex.dot(*normal).hi * two_sines;
+            let middle = if two_cosines > 1.0 { sum / two_cosines } else { chord.cross(normal.hi()) / two_sines };
+            let numerator = 0.5 * apex.dot(*normal).hi * chord.dot(normal.hi().cross(middle));
             let apex = apex.hi();
             let both = 1.0 + 0.5 * two_cosines + apex.dot(middle);
             for corner in [start, stop] {

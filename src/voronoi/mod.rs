@@ -66,8 +66,8 @@
 //!
 //! # Source
 //!
-//! Brown (1979), Voronoi diagrams from convex hulls; Amenta, Choi and Rote (2003), Incremental constructions con BRIO; Sutherland and Hodgman (1974), Reentrant polygon clipping; Girard
-//! (1626) and Lambert (1760) for the measures.
+//! Brown (1979), Voronoi diagrams from convex hulls; Amenta, Choi and Rote (2003), Incremental constructions con BRIO;
+//! Sutherland and Hodgman (1974), Reentrant polygon clipping; Girard (1626) and Lambert (1760) for the measures.
 
 mod batches;
 mod builder;
@@ -90,7 +90,6 @@ mod ray;
 mod ring;
 mod shared;
 mod sites;
-
 mod spokes;
 mod start;
 mod twofold;

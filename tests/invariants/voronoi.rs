@@ -32,7 +32,10 @@ pub fn check(sites: &[DVec3], pole: Option<DVec3>) {
 
     // A builder that was used before gives the same bits, and so do sites of other lengths along the same rays.
     let mut builder = Builder::new();
+    // Used for few sites on a circle, and for cells of many corners and long edges.
     assert!(builder.hemisphere(&[DVec3::X, DVec3::NEG_Z, DVec3::X], DVec3::Y).is_ok());
+    let wavy = |k: i32| DVec3::new((1.7 * f64::from(k)).sin(), (2.9 * f64::from(k)).sin(), (4.1 * f64::from(k)).sin());
+    assert!(builder.sphere(&(1..24).map(wavy).collect::<Vec<_>>()).is_ok());
     let scaled: Vec<DVec3> = sites.iter().enumerate().map(|(i, &site)| scaled_exactly(site, i)).collect();
     let again = match pole {
         None => builder.sphere(&scaled),
