@@ -8,7 +8,7 @@ use bounds::voronoi::bound;
 use rand::RngExt;
 use sites::Kind;
 use steradian::glam::{DQuat, DVec3};
-use steradian::voronoi::{self, Diagram, HORIZON};
+use steradian::voronoi::{self, Builder, Diagram, HORIZON};
 
 mod bounds;
 #[path = "invariants/voronoi.rs"]
@@ -124,6 +124,19 @@ fn cells_partition_and_close() {
         assert!((sum - whole).abs() <= bound("sum", "*"), "{kind:?}: {sum}");
         assert_eq!(invariants::euler(diagram), characteristic, "{kind:?}");
     });
+}
+
+/// What a builder did before must not show, whatever is left in its buffers.
+#[test]
+fn a_used_builder_gives_the_same_bits() {
+    let mut rng = seeds::rng(5);
+    let mut builder = Builder::new();
+    for _ in 0..400 {
+        let n = rng.random_range(20..200);
+        let sites = sites::make(Kind::Uniform, n, &mut rng);
+        let fresh = voronoi::sphere(&sites).expect("sites are valid");
+        invariants::assert_same_bits(&fresh, builder.sphere(&sites).expect("sites are valid"));
+    }
 }
 
 #[test]
