@@ -29,7 +29,7 @@ const SHARP: f64 = 0.25;
 const SHORT: f64 = 1.0 / (1u64 << 20) as f64;
 
 /// Nor those whose circle has a larger sine.
-const WIDE: f64 = 0.7;
+const WIDE: f64 = 0.6;
 
 /// Corners nearer to the horizon are not certain: normals are right to 2⁻⁴⁹ of the product of the two edges.
 const NEAR_HORIZON: f64 = 1.0 / (1u64 << 44) as f64;

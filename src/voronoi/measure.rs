@@ -45,8 +45,8 @@ const SURE: f64 = 1.0 / 64.0;
 /// Corners of smaller sine than this are uncertain by 2⁻⁵⁵ even in twofold numbers of 2⁻⁹⁵.
 const BLUNT: f64 = 1.0 / (1u64 << 40) as f64;
 
-/// A cell narrower than this needs more than doubles in the differences of its corners, which are right to 2⁻⁵¹: over this
-/// and over `THIN` that is 2·10⁻¹³ at worst, and 2·10⁻¹⁴ in all that was searched.
+/// A cell narrower than this needs more than doubles in the differences of its corners. These are right to 2⁻⁵¹, over this and
+/// over `THIN` 2·10⁻¹³ if all errors met; 2·10⁻¹⁴ is the worst of all that was searched.
 const NARROW: f64 = 1.0 / 16.0;
 
 /// A fan keeps its relative accuracy with denominators from here on.
@@ -151,8 +151,10 @@ impl Measure {
     /// near: a thin one is within little more than a right angle from there.
     ///
     /// With a the apex, c, c′ the ends of an edge of unit normal n and length θ, m its middle:
-    /// tan(A/2) = a·n sin(θ/2) / (1 + a·c + cos(θ/2) + a·m) for the triangle of a, c, m. As a·n and 2 sin(θ/2) = |c′ − c|
-    /// have no cancellation in twofold numbers, the rest may be doubles.
+    /// tan(A/2) = a·n sin(θ/2) / (1 + a·c + cos(θ/2) + a·m) for the triangle of a, c, m. As a·n and
+    /// 2 sin(θ/2) = (c′ − c)·(n × m) have no cancellation in twofold numbers, the rest may be doubles. The latter is negative
+    /// for ends that have passed each other, as those of the shortest edges may that are known to their last bits only; |c′ − c|
+    /// would not be, and would take in what corners are off their unit length.
     fn twofold_solid_angle(&self) -> Option<f64> {
         let Self { corners, normals } = self;
         if normals.is_empty() {

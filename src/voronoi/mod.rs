@@ -35,7 +35,8 @@
 //!
 //! The error of a solid angle or of a component of a vector moment is below [`SOLID_ANGLE_ERROR`] for cells of up to 40
 //! edges (searched: tests/voronoi_oracle.rs, the worst solid angle seen is 1.4·10⁻¹⁵ off; moments against polygons:
-//! tests/voronoi_partition.rs). Solid angles are right relatively too, whatever the size and the shape of the cell: to
+//! tests/voronoi_partition.rs). Solid angles are right relatively too, for cells of sites 10⁻³⁰ and more apart, whatever the
+//! shape: to
 //! ```text
 //! RELATIVE_ERROR + PLANE_ERROR × perimeter / solid angle
 //! ```
@@ -49,7 +50,7 @@
 //!
 //! The corners are the facets of the convex hull of the unit vectors, built site by site in a biased randomised order along
 //! a space-filling curve: expected time grows as n log n. Doubles with a bound of their error decide, then twofold numbers,
-//! then integers. Sites on one circle are sorted around it. Cells of well-shaped corners within 53° of their site are
+//! then integers. Sites on one circle are sorted around it. Cells of well-shaped corners within 37° of their site are
 //! measured edge by edge, some cells side by side, and so are their parts above a horizon; all others corner by corner, in
 //! twofold numbers where they are small, sharp or thin.
 //!

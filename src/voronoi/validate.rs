@@ -14,7 +14,8 @@ pub const ERROR_PER_EDGE: f64 = 16.0 / 9_007_199_254_740_992.0;
 
 /// Bound of x·(u − v) for a corner x of the cell of u on the bisector of u and v, and of the defect of |x|² from 1.
 ///
-/// From the corners: 16 units of 2⁻⁵³ over the smallest sine that doubles are trusted with, 1/4.
+/// Searched. From the corners: 16 units of 2⁻⁵³ over the smallest sine that doubles are trusted with, 1/4, on circles that are
+/// not wide.
 pub const CORNER_ERROR: f64 = 64.0 / 9_007_199_254_740_992.0;
 
 /// A broken invariant of a diagram.
