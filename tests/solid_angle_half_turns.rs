@@ -6,7 +6,6 @@
 
 #[path = "oracles/fixed.rs"]
 mod fixed;
-#[allow(dead_code, reason = "directions alone")]
 mod polygons;
 mod seeds;
 #[path = "oracles/spherical.rs"]
