@@ -95,8 +95,7 @@ impl Edge {
         let dot = (0..3).map(|i| Double::product(a.v[i], b.v[i])).fold(Double::default(), |sum, x| sum + x);
         let normal = exact::cross(a.v.to_array(), b.v.to_array());
         // Its square may vanish where it does not.
-        let largest = normal.iter().fold(f64::MIN_POSITIVE, |size, x| size.max(x.hi.abs()));
-        let power = f64::from_bits(largest.to_bits() & 0x7ff0_0000_0000_0000);
+        let power = power(&normal);
         let normal = normal.map(|x| x.times(1.0 / power));
         let length = length(&normal);
         let normal = if length.hi > 0.0 { normal.map(|x| x / length) } else { normal };
@@ -122,6 +121,12 @@ pub(super) fn bulge(sine: Double, cosine: Double) -> Double {
         (Double::from(1.0) + sum) * (half * (even / odd))
     });
     sine * series
+}
+
+/// The power of two that brings the largest component between 1 and 2, by division.
+pub(super) fn power(v: &Vector) -> f64 {
+    let largest = v.iter().fold(f64::MIN_POSITIVE, |size, x| size.max(x.hi.abs()));
+    f64::from_bits(largest.to_bits() & 0x7ff0_0000_0000_0000)
 }
 
 fn length(v: &Vector) -> Double {
