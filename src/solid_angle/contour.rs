@@ -8,13 +8,14 @@
 //! 2M = Σ (v̂ᵢ − v̂₀)×(v̂ᵢ₊₁ − v̂₀) + Σ n̂ₑ (θₑ − sin θₑ),   v̂ = v/|v|
 //! ```
 //!
-//! with offsets that keep their relative accuracy, however small: the difference of two vertices is exact, and what their
-//! norms add to it is computed from the exact |v|² − 1. The offsets are scaled by a power of two, so that nothing
+//! with offsets that are off by u² of themselves and of what the norms are off: the difference of two vertices is exact, and what
+//! their norms add to it is computed from |v|² − 1 within 2⁻¹⁵⁴. The offsets are scaled by a power of two, so that nothing
 //! underflows where a polygon of 1e-150 lies around an axis.
 //!
 //! # Accuracy
 //!
-//! A few u² of the two sums' terms, u = 2⁻⁵³: for a loop of diameter s, some 2⁻¹⁰⁴ s².
+//! A few u² of the two sums' terms and partial sums, u = 2⁻⁵³: for a short loop of diameter s, some 2⁻¹⁰⁴ s (s + e), e the
+//! largest | |v|² − 1 |.
 
 use glam::DVec3;
 

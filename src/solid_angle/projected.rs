@@ -110,8 +110,9 @@ pub fn projected_solid_angle(vertices: &[DVec3], normal: DVec3) -> Result<f64, S
 /// # Accuracy
 ///
 /// As for [`projected_solid_angle`], also where edges that are 1e-28 short of a half turn cross the horizon; worst seen 0.50 ulp.
-/// Whether a loop encloses nothing or the whole sphere cannot be told where its solid angle is less than its error. What is not
-/// above the horizon at all is exactly 0. Components below 1e-150 count as 0.
+/// Whether a loop encloses nothing or the whole sphere cannot be told where its solid angle is less than the largest error that
+/// [`signed_polygon_bounded`](super::signed_polygon_bounded) states for it from any first vertex. What is not above the horizon
+/// at all is exactly 0. Components below 1e-150 count as 0.
 ///
 /// # Source
 ///
