@@ -11,7 +11,7 @@ mod seeds;
 #[path = "oracles/spherical.rs"]
 mod spherical;
 
-use std::f64::consts::{FRAC_PI_4, TAU};
+use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
 use bounds::solid_angle::bound;
 use fixed::Fixed;
@@ -193,5 +193,15 @@ fn a_million_vertices_cost_a_moment_no_digit() {
         let error = error(&vertices, got, &[Fixed::default(), Fixed::default(), want]);
         println!("vector_moment of a million, {size:e}: {error:.4}");
         assert!(error <= bound("vector_moment", "*"), "size {size:e}, seed {:#x}: {error}", seeds::seed());
+    }
+}
+
+/// The normal of an edge that is nearly a half turn, whose square is less than the smallest double.
+#[test]
+fn edges_short_of_a_half_turn_by_nearly_nothing_have_the_moment_of_a_hemisphere() {
+    for exponent in [100, 120, 121, 130, 150, 154, 155, 156, 157, 158, 159, 160, 161, 162, 200, 290] {
+        let e = 10_f64.powi(-exponent);
+        let got = solid_angle::vector_moment(&[DVec3::X, DVec3::new(-1.0, e, 0.0), DVec3::NEG_Y]);
+        assert_eq!(got, Ok(DVec3::new(0.0, 0.0, PI)), "{e:e}");
     }
 }

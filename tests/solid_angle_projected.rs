@@ -212,3 +212,26 @@ fn what_touches_the_horizon_from_below_is_exactly_zero() {
         assert_eq!(other, Ok(PI), "{n} vertices");
     }
 }
+
+/// Edges over a quarter turn whose crossing is found from products that are as small as their heights, or their square.
+#[test]
+fn edges_that_leave_the_horizon_by_almost_nothing_are_clipped() {
+    let thirds = [DVec3::X, DVec3::new(-0.6, 0.8, 0.0), DVec3::new(-0.6, -0.8, 0.0)];
+    for e in [1e-20, 1e-60, 1e-100, 1e-140, 1e-150, 1e-153, 1e-161, 1e-162, 1e-200, 1e-308, 5e-324] {
+        for tilt in [e, -e] {
+            let normal = DVec3::new(tilt, 0.0, 1.0);
+            assert_eq!(projected_above_horizon(&thirds, normal), Ok(PI), "{normal}");
+            assert_eq!(projected_above_horizon(&reversed(&thirds), -normal), Ok(PI), "{normal}");
+        }
+    }
+    for e in [1e-20, 1e-40, 1e-80, 1e-81, 1e-85, 1e-100, 1e-120, 1e-150] {
+        let beside = [DVec3::new(1.0, 0.0, e), DVec3::new(-1.0, e, -e), DVec3::NEG_Y];
+        for turn in 0..3 {
+            let mut vertices = beside.to_vec();
+            vertices.rotate_left(turn);
+            assert_eq!(projected_above_horizon(&vertices, DVec3::Z), Ok(PI), "{e:e}, {turn}");
+            let complement = projected_above_horizon(&reversed(&vertices), DVec3::Z).unwrap();
+            assert!(complement.abs() <= 2e-20, "{e:e}, {turn}: {complement:e}");
+        }
+    }
+}

@@ -69,7 +69,8 @@ fn fits(v: DVec3) -> bool {
 
 fuzz_target!(|input: Input| {
     let mut vertices = Vec::new();
-    for of in input.vertices.iter().take(10) {
+    // The floor of moments is that of short loops.
+    for of in input.vertices.iter().take(8) {
         vertices.push(vertex(of, &vertices));
     }
     let normal = vertex(&input.normal, &vertices);
@@ -107,7 +108,9 @@ fuzz_target!(|input: Input| {
     assert!(apart <= bounded.error, "{vertices:?}: {bounded:?} against {}", signed.value());
 
     let square = |v: &DVec3| vertices.iter().map(|w| v.distance_squared(*w)).fold(0.0, f64::max);
-    let floor = MOMENT_FLOOR * vertices.iter().map(square).fold(0.0, f64::max) * (0.25 * n).max(1.0);
+    let across = vertices.iter().map(square).fold(0.0, f64::max).sqrt();
+    let norms = vertices.iter().map(|v| (v.length_squared() - 1.0).abs()).fold(0.0, f64::max);
+    let floor = MOMENT_FLOOR * across * (across + norms);
     let want = spherical::vector_moment(&exact);
     let largest = want.iter().fold(0.0, |size: f64, x| size.max(x.value().abs()));
     let limit = MOMENT_BOUND * 0.5 * f64::EPSILON * largest + floor;
@@ -118,7 +121,11 @@ fuzz_target!(|input: Input| {
 
     let Ok((whole, above)) = projections else { return };
     // Which side is the region of a loop that encloses nothing is a matter of noise.
-    if !fits(normal) || signed.abs().value() <= bounded.error {
+    let noise = (0..vertices.len()).fold(bounded.error, |most: f64, _| {
+        vertices.rotate_left(1);
+        most.max(solid_angle::signed_polygon_bounded(&vertices).expect("the same loop").error)
+    });
+    if !fits(normal) || signed.abs().value() <= noise {
         return;
     }
     let n = spherical::direction(normal);

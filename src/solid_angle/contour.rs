@@ -8,13 +8,14 @@
 //! 2M = Σ (v̂ᵢ − v̂₀)×(v̂ᵢ₊₁ − v̂₀) + Σ n̂ₑ (θₑ − sin θₑ),   v̂ = v/|v|
 //! ```
 //!
-//! with offsets that keep their relative accuracy, however small: the difference of two vertices is exact, and what their
-//! norms add to it is computed from the exact |v|² − 1. The offsets are scaled by a power of two, so that nothing
+//! with offsets that are off by u² of themselves and of what the norms are off: the difference of two vertices is exact, and what
+//! their norms add to it is computed from |v|² − 1 within 2⁻¹⁵⁴. The offsets are scaled by a power of two, so that nothing
 //! underflows where a polygon of 1e-150 lies around an axis.
 //!
 //! # Accuracy
 //!
-//! A few u² of the two sums' terms, u = 2⁻⁵³: for a loop of diameter s, some 2⁻¹⁰⁴ s².
+//! A few u² of the two sums' terms and partial sums, u = 2⁻⁵³: for a short loop of diameter s, some 2⁻¹⁰⁴ s (s + e), e the
+//! largest | |v|² − 1 |.
 
 use glam::DVec3;
 
@@ -95,8 +96,7 @@ impl Edge {
         let dot = (0..3).map(|i| Double::product(a.v[i], b.v[i])).fold(Double::default(), |sum, x| sum + x);
         let normal = exact::cross(a.v.to_array(), b.v.to_array());
         // Its square may vanish where it does not.
-        let largest = normal.iter().fold(f64::MIN_POSITIVE, |size, x| size.max(x.hi.abs()));
-        let power = f64::from_bits(largest.to_bits() & 0x7ff0_0000_0000_0000);
+        let power = power(&normal);
         let normal = normal.map(|x| x.times(1.0 / power));
         let length = length(&normal);
         let normal = if length.hi > 0.0 { normal.map(|x| x / length) } else { normal };
@@ -122,6 +122,12 @@ pub(super) fn bulge(sine: Double, cosine: Double) -> Double {
         (Double::from(1.0) + sum) * (half * (even / odd))
     });
     sine * series
+}
+
+/// The power of two that brings the largest component between 1 and 2, by division.
+pub(super) fn power(v: &Vector) -> f64 {
+    let largest = v.iter().fold(f64::MIN_POSITIVE, |size, x| size.max(x.hi.abs()));
+    f64::from_bits(largest.to_bits() & 0x7ff0_0000_0000_0000)
 }
 
 fn length(v: &Vector) -> Double {

@@ -78,7 +78,8 @@ impl Expansion {
     }
 }
 
-/// Determinants of this size have a relative error of a few u² from a sum in four doubles, whose own is 2⁻²⁰⁷.
+/// Determinants of this size have a relative error of a few u² from a sum in four doubles, whose own is 2⁻²⁰⁷,
+/// searched.
 const QUICK: f64 = 1.0 / ((1_u64 << 50) as f64 * (1_u64 << 50) as f64);
 
 /// det(a, b, c) = a·(b×c) of near-unit vectors, correctly rounded but for a few u².

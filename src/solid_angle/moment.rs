@@ -42,6 +42,9 @@ pub(super) const SHORT_COSINE: f64 = 0.93;
 /// Edges with a larger cosine are below 0.01 rad: 4 powers of at most 2.5e-5 are enough.
 const PLAIN_COSINE: f64 = 0.999_95;
 
+/// 2⁻⁴⁰⁰: the squares of longer normals are in double length.
+const SHORTEST_NORMAL: f64 = f64::from_bits((1023 - 400) << 52);
+
 /// 2/3 and 8/15 in double length.
 const TWO_THIRDS: (f64, f64) = (2.0 / 3.0, 3.700_743_415_417_188e-17);
 const EIGHT_FIFTEENTHS: (f64, f64) = (8.0 / 15.0, 7.401_486_830_834_377e-18);
@@ -101,8 +104,10 @@ impl Kernel for Loop<'_> {
                 doubt.short += length(heads(&rise));
                 doubt.perimeter += length(difference);
             } else {
-                accumulate(&mut sum, long_rise(&corner, &next));
-                doubt.long += 1.0;
+                let (rise, length) = long_rise(&corner, &next);
+                accumulate(&mut sum, rise);
+                // The square of a shorter normal loses its low places.
+                doubt.long += if length < SHORTEST_NORMAL { f64::INFINITY } else { 1.0 };
             }
             (corner, offset) = (next, next_offset);
         }
@@ -222,9 +227,9 @@ fn short_rise<T: Real>(a: &Corner<T>, b: &Corner<T>) -> [Double<T>; 3] {
     three(|i| normal[i] * factor)
 }
 
-/// n̂ (θ − sin θ) of any edge, within 2⁻⁶³ of θ.
+/// n̂ (θ − sin θ) of any edge, within 2⁻⁶³ of θ unless |a×b| is below `SHORTEST_NORMAL`; and |a×b|.
 #[inline(always)]
-fn long_rise<T: Real>(a: &Corner<T>, b: &Corner<T>) -> [Double<T>; 3] {
+fn long_rise<T: Real>(a: &Corner<T>, b: &Corner<T>) -> ([Double<T>; 3], f64) {
     let cosine = dot(a.v, b.v);
     // Where the norms differ, a×(a + b) would be short against its factors next to a half turn.
     let minor = |i: usize, j: usize| Double::product(a.v[i], b.v[j]) - Double::product(a.v[j], b.v[i]);
@@ -233,7 +238,7 @@ fn long_rise<T: Real>(a: &Corner<T>, b: &Corner<T>) -> [Double<T>; 3] {
     let angle = argument(cosine, length).cast();
     let sine = plus(length, Double { hi: -(length.hi * (a.excess + b.excess)), lo: T::constant(0.0) });
     let factor = (angle - sine) / length;
-    three(|i| normal[i] * factor)
+    (three(|i| normal[i] * factor), length.hi.get())
 }
 
 #[inline(always)]

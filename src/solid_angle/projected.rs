@@ -33,7 +33,7 @@ use alloc::vec::Vec;
 use glam::DVec3;
 
 use super::check::UNIT_TOLERANCE;
-use super::contour::{Corner, Edge, Vector, bulge, cross, deficit, dot};
+use super::contour::{self, Corner, Edge, Vector, bulge, cross, deficit, dot};
 use super::double::Double;
 use super::product::FOUR_PI;
 use super::{SolidAngleError, exact, measured, moment, winding};
@@ -110,8 +110,9 @@ pub fn projected_solid_angle(vertices: &[DVec3], normal: DVec3) -> Result<f64, S
 /// # Accuracy
 ///
 /// As for [`projected_solid_angle`], also where edges that are 1e-28 short of a half turn cross the horizon; worst seen 0.50 ulp.
-/// Whether a loop encloses nothing or the whole sphere cannot be told where its solid angle is less than its error. What is not
-/// above the horizon at all is exactly 0. Components below 1e-150 count as 0.
+/// Whether a loop encloses nothing or the whole sphere cannot be told where its solid angle is less than the largest error that
+/// [`signed_polygon_bounded`](super::signed_polygon_bounded) states for it from any first vertex. What is not above the horizon
+/// at all is exactly 0. Components below 1e-150 count as 0.
 ///
 /// # Source
 ///
@@ -134,15 +135,18 @@ pub fn projected_solid_angle(vertices: &[DVec3], normal: DVec3) -> Result<f64, S
 /// # Ok::<(), solid_angle::SolidAngleError>(())
 /// ```
 pub fn projected_above_horizon(vertices: &[DVec3], normal: DVec3) -> Result<f64, SolidAngleError> {
-    let along = Normal::new(normal)?;
     // Products of smaller components vanish, and with them the direction of an edge that is nearly a half turn.
-    let clear = |x: f64| if x.abs() < SMALLEST { 0.0 } else { x };
-    let vertices: Vec<DVec3> = vertices.iter().map(|v| DVec3::new(clear(v.x), clear(v.y), clear(v.z))).collect();
+    let clear = |v: DVec3| DVec3::from_array(v.to_array().map(|x| if x.abs() < SMALLEST { 0.0 } else { x }));
+    let along = Normal::new(clear(normal))?;
+    let vertices: Vec<DVec3> = vertices.iter().map(|&v| clear(v)).collect();
     measured(&vertices, |pruned| along.above(pruned))
 }
 
 /// Components below this are taken for 0 where loops are clipped.
 const SMALLEST: f64 = 1e-150;
+
+/// 2⁶⁰⁰: no product of three components keeps less than all its places if it is larger by this.
+const LIFT: f64 = f64::from_bits((1023 + 600) << 52);
 
 /// The normal of a surface.
 struct Normal {
@@ -165,10 +169,10 @@ impl Normal {
         product + product * self.deficit
     }
 
-    /// n·v, with a relative error of a few u² and an exact sign.
+    /// n·v times `LIFT`, with a relative error of a few u² and an exact sign.
     fn height(&self, v: DVec3) -> Double {
         let mut sum = exact::Expansion::zero();
-        (0..3).for_each(|i| sum.add_product(self.n[i], v[i]));
+        (0..3).for_each(|i| sum.add_product(LIFT * self.n[i], v[i]));
         sum.round()
     }
 
@@ -285,9 +289,12 @@ impl Normal {
             ([0, 1, 2].map(|i| t * inverse * d[i] + radial * above.v[i]), t * inverse)
         } else {
             // p = (a×b)×n, which is all that is left of b (n·a) − a (n·b) next to a half turn.
-            let p = exact::double_cross(self.n.to_array(), above.v.to_array(), below.v.to_array());
+            let p = exact::double_cross(self.n.to_array(), above.v.to_array(), (LIFT * below.v).to_array());
+            // As small as the height, or smaller: its square may vanish where it does not.
+            let power = contour::power(&p);
+            let p = p.map(|x| x.times(1.0 / power));
             let inverse = one / dot(&p, &p).sqrt();
-            ([0, 1, 2].map(|i| p[i] * inverse - a[i]), height * inverse)
+            ([0, 1, 2].map(|i| p[i] * inverse - a[i]), height.times(1.0 / power) * inverse)
         };
         let unit = sum(&a, &offset);
         let sine = part * edge.length * (one + above.deficit);
