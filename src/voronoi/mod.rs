@@ -56,9 +56,9 @@
 //!
 //! Sites are numbered along the curve, and vertices in the order in which their cells meet them. They take the place of the
 //! planes of the hull, and cells are measured as they come, so that a million sites take 290 bytes each, results included.
-//! Measures included, a thousand sites take about 0.3 µs each and a million 0.9 to 1.2 µs, up to twice that on grids of
+//! Measures included, a thousand sites take 0.3 to 0.4 µs each and a million 0.9 to 1.3 µs, up to 2.6 times that on grids of
 //! latitudes and longitudes, whose circles integers decide. Sites almost on one circle have sharp corners and thin cells
-//! only, which cost up to 21 µs a site: docs/performance.md.
+//! only, which cost about 6 µs a site: docs/performance.md.
 //!
 //! # Not here
 //!
