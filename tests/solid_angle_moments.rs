@@ -24,7 +24,7 @@ use steradian::solid_angle::{self, MOMENT_BOUND, MOMENT_FLOOR};
 
 type Draw = fn(&mut Pcg64) -> Vec<DVec3>;
 
-const FAMILIES: [(&str, Draw); 8] = [
+const FAMILIES: [(&str, Draw); 9] = [
     ("around an axis", tiny),
     ("figure of eight", figure_of_eight),
     ("needle of any width", needle),
@@ -32,6 +32,7 @@ const FAMILIES: [(&str, Draw); 8] = [
     ("edges of nearly half turns", half_turns),
     ("bent needle", |rng| bent(rng, 1e-14)),
     ("beside the unit sphere", beside),
+    ("small and beside the unit sphere", small_beside),
     ("star of any size", star),
 ];
 
@@ -93,6 +94,21 @@ fn beside(rng: &mut Pcg64) -> Vec<DVec3> {
     let class = TRIANGLES.iter().chain(HEXAGONS).nth(rng.random_range(0..32)).expect("32 classes");
     let vertices = (class.draw)(rng);
     vertices.iter().map(|&v| v * (1.0 + rng.random_range(-0.49..0.49) * solid_angle::UNIT_TOLERANCE)).collect()
+}
+
+/// Vertices so close that their norms, each by its own part of what it may be, differ by as much or more; some in a row.
+fn small_beside(rng: &mut Pcg64) -> Vec<DVec3> {
+    let (z, size) = (direction(rng), 10_f64.powf(rng.random_range(-16.0..-3.0)));
+    let (x, y) = z.any_orthonormal_pair();
+    let width = if rng.random_range(0..3) == 0 { 0.0 } else { size };
+    let slack = rng.random_range(0.0..0.49) * solid_angle::UNIT_TOLERANCE;
+    let mut coordinate = |size: f64| size * rng.random_range(-1.0..1.0);
+    (0..3 + (size.to_bits() & 3))
+        .map(|_| {
+            let v = (z + coordinate(size) * x + coordinate(width) * y).normalize();
+            v * (1.0 + coordinate(slack))
+        })
+        .collect()
 }
 
 fn star(rng: &mut Pcg64) -> Vec<DVec3> {

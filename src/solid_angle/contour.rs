@@ -8,14 +8,13 @@
 //! 2M = Σ (v̂ᵢ − v̂₀)×(v̂ᵢ₊₁ − v̂₀) + Σ n̂ₑ (θₑ − sin θₑ),   v̂ = v/|v|
 //! ```
 //!
-//! with offsets that are off by u² of themselves and of what the norms are off: the difference of two vertices is exact, and what
-//! their norms add to it is computed from |v|² − 1 within 2⁻¹⁵⁴. The offsets are scaled by a power of two, so that nothing
-//! underflows where a polygon of 1e-150 lies around an axis.
+//! with offsets that keep their relative accuracy, however small: the difference of two vertices is exact, and what their
+//! norms add to it is computed from |b|² − |a|² = (b − a)·(b + a), exact factors. The offsets are scaled by a power of two, so
+//! that nothing underflows where a polygon of 1e-150 lies around an axis.
 //!
 //! # Accuracy
 //!
-//! A few u² of the two sums' terms and partial sums, u = 2⁻⁵³: for a short loop of diameter s, some 2⁻¹⁰⁴ s (s + e), e the
-//! largest | |v|² − 1 |.
+//! A few u² of the two sums' terms and partial sums, u = 2⁻⁵³: for a loop of few edges and diameter s, some 2⁻¹⁰⁴ s².
 
 use glam::DVec3;
 
@@ -67,9 +66,22 @@ impl Corner {
         Self { v, norm_error, deficit: deficit(norm_error) }
     }
 
-    /// to/|to| − v/|v|.
+    /// to/|to| − v/|v|, within a few u² of its length.
     pub fn offset_to(&self, to: &Self) -> Vector {
-        [0, 1, 2].map(|i| Double::difference(to.v[i], self.v[i]) + (to.deficit * to.v[i] - self.deficit * self.v[i]))
+        let difference = [0, 1, 2].map(|i| Double::difference(to.v[i], self.v[i]));
+        let longer = dot(&difference, &[0, 1, 2].map(|i| Double::sum(to.v[i], self.v[i])));
+        let shorter = self.deficit_to(to.deficit, longer);
+        [0, 1, 2].map(|i| difference[i] + (to.deficit * difference[i] + shorter * self.v[i]))
+    }
+
+    /// The `deficit` of a vector less that of this one, where the square of the vector is `longer` by so much.
+    ///
+    /// 1/r − 1/ρ = (ρ² − r²) / rρ(r + ρ).
+    pub fn deficit_to(&self, deficit: Double, longer: Double) -> Double {
+        let one = Double::from(1.0);
+        let (p, q) = (one + self.deficit, one + deficit);
+        let product = p * q;
+        -(longer * (product * product) / (p + q))
     }
 }
 

@@ -108,11 +108,11 @@ pub const ANGLE_BOUND: f64 = 0.51;
 /// One unit is the rounding of that component alone. [`MOMENT_FLOOR`] comes on top.
 pub const MOMENT_BOUND: f64 = 1.1;
 
-/// What a moment may be off beside [`MOMENT_BOUND`]: 2⁻¹⁰⁴ s (s + e), s the loop's diameter, e the largest | |v|² − 1 |; searched
-/// for loops of up to 8 vertices, worst seen 0.54 of it where e is nothing.
+/// What a moment may be off beside [`MOMENT_BOUND`]: 2⁻¹⁰⁴, times the square of the loop's diameter; searched for loops of up to
+/// 10 vertices.
 ///
 /// Every further vertex may add 2⁻¹⁰⁶ of the largest partial sum of the terms along the loop: one of 800 vertices that went 127
-/// times around the equator and back was off by 377 · 2⁻¹⁰⁴ s².
+/// times around the equator and back was off by 377 times the above.
 ///
 /// It matters where parts cancel to 2⁻⁵¹ of that square: the vertices are collinear up to their last bits, or the halves of
 /// a figure of eight are alike.

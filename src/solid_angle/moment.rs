@@ -89,6 +89,7 @@ impl Kernel for Loop<'_> {
         for i in 1..=self.0.len() {
             let next = if i < self.0.len() { Corner::new(self.0[i].to_array()) } else { apex };
             let next_offset = offset_from(&apex, &next);
+            doubt.excess = doubt.excess.max(next.excess.get().abs());
             accumulate(&mut sum, cross(&offset, &next_offset));
             doubt.reach += length(heads(&offset)) * length(heads(&next_offset));
             let difference = three(|i| next.v[i] - corner.v[i]);
@@ -128,13 +129,17 @@ struct Doubt {
     short: f64,
     /// Number of the long edges.
     long: f64,
+    /// Largest | |v| − 1 |.
+    excess: f64,
 }
 
 impl Doubt {
     #[inline(always)]
     fn bound(&self) -> f64 {
         let unit = 0.5 * f64::EPSILON;
-        let flat = unit * unit * (8.0 * (self.perimeter + 3.0 * self.long) + 16.0 * self.reach);
+        // Each end of an offset is off along the radius by what its norm is: u² and, of what that is beside 1, 8 u.
+        let radial = unit * (8.0 * unit + 16.0 * self.excess);
+        let flat = radial * (self.perimeter + 3.0 * self.long) + 16.0 * unit * unit * self.reach;
         flat + unit * (6.0 * self.plain + self.short / 256.0 + self.long / 1024.0)
     }
 }

@@ -281,11 +281,12 @@ impl Normal {
             // p = a + t (b − a), 1 − t = s.
             let (t, s) = (height / (height - depth), -(depth / (height - depth)));
             let d = [0, 1, 2].map(|i| Double::difference(below.v[i], above.v[i]));
-            // |p|² − 1
-            let square = above.norm_error + t * (below.norm_error - above.norm_error) - t * s * dot(&d, &d);
-            let shorter = deficit(square);
+            // |p|² − |a|² and |p|² − 1.
+            let sums = [0, 1, 2].map(|i| Double::sum(below.v[i], above.v[i]));
+            let longer = t * dot(&d, &sums) - t * s * dot(&d, &d);
+            let shorter = deficit(above.norm_error + longer);
             let inverse = one + shorter;
-            let radial = shorter - above.deficit;
+            let radial = above.deficit_to(shorter, longer);
             ([0, 1, 2].map(|i| t * inverse * d[i] + radial * above.v[i]), t * inverse)
         } else {
             // p = (a×b)×n, which is all that is left of b (n·a) − a (n·b) next to a half turn.
