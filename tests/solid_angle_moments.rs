@@ -96,17 +96,22 @@ fn beside(rng: &mut Pcg64) -> Vec<DVec3> {
     vertices.iter().map(|&v| v * (1.0 + rng.random_range(-0.49..0.49) * solid_angle::UNIT_TOLERANCE)).collect()
 }
 
-/// Vertices so close that their norms, each by its own part of what it may be, differ by as much or more; some in a row.
+/// Vertices so close that what their norms are off, all or each by itself, is as much as they are apart, or more; some on one
+/// circle through the poles, by two equal components, so that the moment is 0.
 fn small_beside(rng: &mut Pcg64) -> Vec<DVec3> {
-    let (z, size) = (direction(rng), 10_f64.powf(rng.random_range(-16.0..-3.0)));
-    let (x, y) = z.any_orthonormal_pair();
-    let width = if rng.random_range(0..3) == 0 { 0.0 } else { size };
-    let slack = rng.random_range(0.0..0.49) * solid_angle::UNIT_TOLERANCE;
+    let size = 10_f64.powf(rng.random_range(-16.0..-3.0));
+    let slack = rng.random_range(0.0..0.24) * solid_angle::UNIT_TOLERANCE;
+    let flat = rng.random_range(0..3) == 0;
+    let mut z = direction(rng);
+    if flat {
+        z.y = z.x;
+    }
+    let (x, y) = if flat { (DVec3::new(-z.z, -z.z, 2.0 * z.x), DVec3::ZERO) } else { z.any_orthonormal_pair() };
     let mut coordinate = |size: f64| size * rng.random_range(-1.0..1.0);
     (0..3 + (size.to_bits() & 3))
         .map(|_| {
-            let v = (z + coordinate(size) * x + coordinate(width) * y).normalize();
-            v * (1.0 + coordinate(slack))
+            let v = (z + coordinate(size) * x + coordinate(size) * y).normalize();
+            v * (1.0 + if flat { slack + coordinate(size.min(slack)) } else { coordinate(slack) })
         })
         .collect()
 }
