@@ -22,15 +22,24 @@ impl Outlines {
             let mut start = walk.diagram.neighbors.len();
             for k in 0..self.spokes.cells().len() {
                 let around = self.spokes.cells()[k];
-                if let Some((solid_angle, vector_moment)) = self.ordinary_cell(around, walk) {
+                let measures = self.ordinary_cell(around, walk);
+                if let Some((solid_angle, vector_moment, true)) = measures {
                     walk.finish(around.site, start, start + around.count, solid_angle, vector_moment);
                     start += around.count;
-                } else {
-                    self.write(waiting..around.start, walk);
-                    self.add_uneven_cell(around, walk);
-                    waiting = around.start + around.count + 1;
-                    start = walk.diagram.neighbors.len();
+                    continue;
                 }
+                self.write(waiting..around.start, walk);
+                match measures {
+                    Some((solid_angle, vector_moment, _)) => {
+                        let start = walk.diagram.neighbors.len();
+                        self.write_long_edges(around, walk);
+                        let end = walk.diagram.neighbors.len();
+                        walk.finish(around.site, start, end, solid_angle, vector_moment);
+                    }
+                    None => self.add_uneven_cell(around, walk),
+                }
+                waiting = around.start + around.count + 1;
+                start = walk.diagram.neighbors.len();
             }
             self.write(waiting..self.spokes.all.len(), walk);
         }
@@ -84,14 +93,30 @@ impl Outlines {
         self.lanes.compute(all.len(), self.spokes.cells());
     }
 
-    /// Solid angle and vector moment of a cell of ordinary corners above the horizon, unless it is thin or has edges that
-    /// may have no length.
+    /// Solid angle and vector moment of a cell of ordinary corners above the horizon, unless it is thin; and whether all of its
+    /// edges surely have length.
     #[inline(always)]
-    fn ordinary_cell(&self, around: Around, walk: &Walk<'_>) -> Option<(f64, DVec3)> {
+    fn ordinary_cell(&self, around: Around, walk: &Walk<'_>) -> Option<(f64, DVec3, bool)> {
         let spokes = &self.spokes.all[around.start..around.start + around.count];
         let classes = spokes.iter().fold(0, |classes, spoke| classes | walk.classes[spoke.vertex as usize]);
-        let is_ordinary = classes == ABOVE && self.spokes.all.len() <= LANES;
-        is_ordinary.then(|| self.lanes.cell(around.start, around.count)).flatten()
+        let is_ordinary = classes & CLASSES == ABOVE && self.spokes.all.len() <= LANES;
+        let (solid_angle, vector_moment, has_lengths) =
+            is_ordinary.then(|| self.lanes.cell(around.start, around.count)).flatten()?;
+        Some((solid_angle, vector_moment, has_lengths && classes == ABOVE))
+    }
+
+    /// Writes down the outline of an ordinary cell, but for edges of no length.
+    fn write_long_edges(&mut self, around: Around, walk: &mut Walk<'_>) {
+        for k in around.start..around.start + around.count {
+            let [spoke, after] = [self.spokes.all[k], self.spokes.all[k + 1]];
+            let mut is_flat = walk.is_flat(spoke);
+            if !is_flat && after.before > around.site && !self.lanes.has_length(k) {
+                is_flat = self.find_flat(spoke.edge, spoke.vertex, after.vertex, walk);
+            }
+            if !is_flat {
+                walk.diagram.push_edge(walk.name(after.before), spoke.vertex);
+            }
+        }
     }
 
     /// Writes down the outlines of ordinary cells.

@@ -147,10 +147,10 @@ impl Lanes {
         }
     }
 
-    /// Solid angle and vector moment of the cell of the `count` corners from `start` on, unless it is thin or has edges
-    /// of no sure length.
+    /// Solid angle and vector moment of the cell of the `count` corners from `start` on, unless it is thin; and whether all
+    /// of its edges surely have length.
     #[inline(always)]
-    pub fn cell(&self, start: usize, count: usize) -> Option<(f64, DVec3)> {
+    pub fn cell(&self, start: usize, count: usize) -> Option<(f64, DVec3, bool)> {
         let (mut half_angle, mut moment, mut reach) = (0.0, DVec3::ZERO, 0.0);
         for k in start..start + count {
             half_angle += self.half_angle[k];
@@ -158,8 +158,14 @@ impl Lanes {
             reach = if self.square[k] > reach { self.square[k] } else { reach };
         }
         let solid_angle = if self.has_small_tangents { 2.0 * half_angle } else { self.solid_angle(start, count) };
-        let has_lengths = self.has_lengths || (start..start + count).all(|k| self.chord[k] > self.square[k] * SURE);
-        (has_lengths && !is_thin(solid_angle, reach)).then_some((solid_angle, 0.5 * moment))
+        let has_lengths = self.has_lengths || (start..start + count).all(|k| self.has_length(k));
+        (!is_thin(solid_angle, reach)).then_some((solid_angle, 0.5 * moment, has_lengths))
+    }
+
+    /// Whether the edge from this corner surely has length.
+    #[inline(always)]
+    pub fn has_length(&self, k: usize) -> bool {
+        self.chord[k] > self.square[k] * SURE
     }
 
     #[inline(never)]
@@ -170,10 +176,8 @@ impl Lanes {
     }
 }
 
-/// Corners of ordinary facets that are farther apart than this, over their distance from a site, are two.
-pub(super) const SURE_LENGTH: f64 = 1.0 / (1u64 << 40) as f64;
-
-const SURE: f64 = SURE_LENGTH * SURE_LENGTH;
+/// Corners of ordinary facets that are farther apart than the root of this, over their distance from a site, are two.
+pub(super) const SURE: f64 = 1.0 / (1u128 << 80) as f64;
 
 struct Compute<'a> {
     lanes: &'a mut Lanes,
@@ -267,7 +271,7 @@ mod tests {
                     let e = corners[(k + 1) % corners.len()];
                     sum.add(&Side::new(*unit, unit + d, d, e, d.length_squared() + e.length_squared()));
                 }
-                let (solid_angle, moment) = lanes.cell(around.start, around.count).expect("the cell is not thin");
+                let (solid_angle, moment, _) = lanes.cell(around.start, around.count).expect("the cell is not thin");
                 let want = sum.solid_angle();
                 assert!((solid_angle - want).abs() <= 4e-15 * want, "{size}: {solid_angle} for {want}");
                 let off = (moment - sum.vector_moment()).abs().max_element();
@@ -286,8 +290,9 @@ mod tests {
             plain.compute_all(count, &around);
             for around in around {
                 let [a, b] = [&lanes, &plain].map(|lanes| lanes.cell(around.start, around.count));
-                let bits =
-                    |(solid_angle, moment): (f64, DVec3)| [solid_angle, moment.x, moment.y, moment.z].map(f64::to_bits);
+                let bits = |(solid_angle, moment, _): (f64, DVec3, bool)| {
+                    [solid_angle, moment.x, moment.y, moment.z].map(f64::to_bits)
+                };
                 assert_eq!(a.map(bits), b.map(bits));
             }
         }

@@ -11,14 +11,14 @@ use super::clip::{Cell, View};
 use super::corner::{ABOVE, BELOW, Batch, Class, SET, SPECIAL};
 use super::diagram::{Diagram, NO_VERTEX, Record};
 use super::hull::{Facet, Hull, Shape};
-use super::lanes::{Lanes, SURE_LENGTH};
+use super::lanes::{Lanes, SURE};
 use super::measure::{Measure, is_thin};
 use super::ordinary::{Side, Sum};
 use super::predicate::orientation;
 use super::ray::Ray;
 use super::shared::Shared;
 use super::sites::Sites;
-use super::spokes::{Around, Spokes};
+use super::spokes::{Around, Spoke, Spokes};
 
 /// What the walk works with, to be used again.
 #[derive(Clone, Debug, Default)]
@@ -114,7 +114,6 @@ impl Outlines {
         let sum = self.sum_edges(site, walk);
         let start = walk.diagram.neighbors.len();
         let measures = match classes {
-            ABOVE => self.even_cell(&sum, walk),
             BELOW => Some((0.0, DVec3::ZERO)),
             ABOVE_AND_BELOW => self.clipped_cell(site, sum, walk),
             _ => None,
@@ -147,9 +146,8 @@ impl Outlines {
         for pair in self.spokes.all[around.start..=around.start + around.count].windows(2) {
             let [spoke, after] = pair else { continue };
             let offset = walk.hull.planes[spoke.vertex as usize] + self.spokes.offsets[spoke.lowest as usize];
-            let mark = walk.classes[spoke.vertex as usize];
-            let (square, class, is_flat) =
-                (offset.length_squared(), mark & CLASSES, mark >> (FLAT + (spoke.edge & 3)) & 1 != 0);
+            let class = walk.classes[spoke.vertex as usize] & CLASSES;
+            let (square, is_flat) = (offset.length_squared(), walk.is_flat(*spoke));
             let (vertex, edge, neighbor) = (spoke.vertex, spoke.edge, after.before);
             self.edges.push(Edge { offset, square, class, vertex, edge, neighbor, is_flat });
             classes |= class;
@@ -168,18 +166,25 @@ impl Outlines {
             let mut has_length = classes == ABOVE_AND_BELOW || classes == BELOW;
             if classes == ABOVE {
                 let side = Side::new(unit, unit + start.offset, start.offset, end.offset, start.square + end.square);
-                has_length = side.chord.length_squared() > SURE_LENGTH * SURE_LENGTH * start.square;
+                has_length = side.chord.length_squared() > SURE * start.square;
                 sum.add(&side);
             }
-            if start.neighbor > site && !has_length && walk.hull.is_flat(walk.sites, start.edge) {
-                let across = walk.hull.facets[(start.edge >> 2) as usize].across[(start.edge & 3) as usize];
-                walk.classes[start.vertex as usize] |= 1 << (FLAT + (start.edge & 3));
-                walk.classes[end.vertex as usize] |= 1 << (FLAT + (across & 3));
-                self.shared.push_flat(start.vertex, end.vertex);
-                self.edges[k].is_flat = true;
+            if start.neighbor > site && !has_length {
+                self.edges[k].is_flat |= self.find_flat(start.edge, start.vertex, end.vertex, walk);
             }
         }
         sum
+    }
+
+    /// Whether an edge from vertex `start` to vertex `end` has no length; then it is marked on both sides.
+    pub fn find_flat(&mut self, edge: u32, start: u32, end: u32, walk: &mut Walk<'_>) -> bool {
+        let is_flat = walk.hull.is_flat(walk.sites, edge);
+        if is_flat {
+            walk.classes[start as usize] |= 1 << (FLAT + (edge & 3));
+            walk.classes[end as usize] |= 1 << (FLAT + (walk.across(edge) & 3));
+            self.shared.push_flat(start, end);
+        }
+        is_flat
     }
 
     /// The cells of sites on a circle.
@@ -201,20 +206,6 @@ impl Outlines {
             }
             self.add_cut_cell(site, walk);
         }
-    }
-
-    /// Adds the outline of a cell of ordinary corners above the horizon, unless it is thin.
-    #[inline(always)]
-    fn even_cell(&mut self, sum: &Sum, walk: &mut Walk<'_>) -> Option<(f64, DVec3)> {
-        let mut reach = 0.0;
-        for edge in &self.edges {
-            reach = if edge.square > reach { edge.square } else { reach };
-            if !edge.is_flat {
-                walk.diagram.push_edge(walk.name(edge.neighbor), edge.vertex);
-            }
-        }
-        let solid_angle = sum.solid_angle();
-        (!is_thin(solid_angle, reach)).then(|| (solid_angle, sum.vector_moment()))
     }
 
     /// Adds the outline of a cell of ordinary corners above the horizon and some below, unless doubles are not enough.
@@ -310,7 +301,7 @@ impl Outlines {
 impl Walk<'_> {
     /// The index by which the diagram names the cell of a site.
     #[inline(always)]
-    fn name(&self, site: u32) -> u32 {
+    pub fn name(&self, site: u32) -> u32 {
         let index = self.sites.index(site);
         self.diagram.owners.get(index).copied().unwrap_or(index as u32)
     }
@@ -323,6 +314,11 @@ impl Walk<'_> {
         self.diagram.records[name] = Record { place: site, start: start as u32, count };
         self.diagram.solid_angles[name] = solid_angle;
         self.diagram.vector_moments[name] = vector_moment;
+    }
+
+    /// Whether the edge that starts there is marked as one of no length.
+    pub fn is_flat(&self, spoke: Spoke) -> bool {
+        self.classes[spoke.vertex as usize] >> (FLAT + (spoke.edge & 3)) & 1 != 0
     }
 
     /// The same edge seen from the other site.
