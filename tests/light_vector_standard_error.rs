@@ -154,7 +154,7 @@ fn a_pilot_plans_for_the_scatter_of_the_cosine() {
     for map in [CellMap::SolidAngle, CellMap::Balanced] {
         let sampler = AdaptiveSampler::unbiased().pilot(pilot).map(map);
         let squares = (0..u64::from(seeds::cases(100))).map(|seed| {
-            let mut rng = Pcg64::seed_from_u64(seeds::seed() ^ seed);
+            let mut rng = seeds::rng(seed);
             let gather = sampler.gather(Frame::new(DVec3::Z).unwrap(), &mut { field }, &mut rng).unwrap();
             (gather.vector().standard_error() / PI).powi(2)
         });

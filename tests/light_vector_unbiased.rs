@@ -9,8 +9,6 @@ mod tracer;
 use std::f64::consts::{PI, TAU};
 
 use bounds::ilv::Z_CRITICAL;
-use rand::SeedableRng;
-use rand_pcg::Pcg64;
 use rayon::prelude::*;
 use statrs::statistics::Statistics;
 use steradian::{
@@ -42,7 +40,7 @@ fn z<S: RadianceSource>(sampler: &AdaptiveSampler, normal: DVec3, source: impl F
     let values: Vec<f64> = (0..u64::from(count))
         .into_par_iter()
         .map_init(Workspace::new, |workspace, seed| {
-            let mut rng = Pcg64::seed_from_u64(seeds::seed() ^ seed);
+            let mut rng = seeds::rng(seed);
             let gather = sampler.gather_with(workspace, frame, &mut source(), |_| DVec3::ONE, &mut rng).unwrap();
             gather.vector().luminance()
         })
