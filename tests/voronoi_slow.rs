@@ -108,7 +108,7 @@ fn strips_and_specks_between_sites_of_few_ulps_keep_their_digits() {
 }
 
 /// The planes of two neighbours that are 10⁻²⁵ apart meet in a corner which thirty digits hardly tell: fuzzing found the slow
-/// cells 10⁻⁹ off. Against eighty digits, all planes intersected.
+/// cells 10⁻⁹ off, as two arcs took it for two corners. Against eighty digits, all planes intersected.
 #[test]
 fn a_cell_beside_sites_that_are_almost_one_keeps_its_digits() {
     let [a, b, c] = [4.0f64, 2.0, 1.0].map(|k| k * 2f64.powi(-32));

@@ -31,8 +31,6 @@ pub const TABLE: &[(&str, &str, f64, &str)] = &[
     ("slow", "planes", PLANE_ERROR, "as documented; the slow cells are as exact"),
     // Cells whose ends of arcs are known to this much of their width are judged: of others, arcs may be on the wrong planes.
     ("slow", "judged", 1e-2, "definition"),
-    // Nor are cells of planes so nearly one that thirty digits do not tell their corner to half of those of a double.
-    ("slow", "known", 1e-8, "definition"),
     // The slow cells themselves, relative, against 512 bits.
     ("slow cells", "*", 4e-15, "searched: oracle"),
     // Sums, beside `validate`: absolute, of up to 2000 cells.

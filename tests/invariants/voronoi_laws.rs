@@ -87,8 +87,7 @@ pub fn slow(sites: &[DVec3], pole: Option<DVec3>) {
              for {sites:?} and the pole {pole:?}"
         );
         let perimeter = perimeter(&got.cell(i).vertices().collect::<Vec<_>>());
-        let is_judged = want.error * perimeter <= bound("slow", "judged") * want.solid_angle;
-        if want.solid_angle == 0.0 || want.error > bound("slow", "known") || !is_judged {
+        if want.solid_angle == 0.0 || want.error * perimeter > bound("slow", "judged") * want.solid_angle {
             continue;
         }
         let (error, allowed) = (

@@ -83,7 +83,8 @@ fn arc(normals: &[Vector], j: usize, sine: &mut f64) -> Option<Arc> {
     let normal = normals[j];
     let mut ends = None;
     for (k, &other) in normals.iter().enumerate().filter(|&(k, _)| k != j) {
-        let cross = other.cross(normal);
+        // The same digits from both circles: what planes that are almost one leave open of their crossing must not part arcs.
+        let cross = if k < j { other.cross(normal) } else { -normal.cross(other) };
         if cross.dot(cross).hi() < PARALLEL * PARALLEL {
             // The same half-space twice: the first one has the edge. Opposite ones: nothing is left.
             if k < j || other.dot(normal).hi() < 0.0 {
