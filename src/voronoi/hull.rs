@@ -9,6 +9,10 @@
 //! A facet holds the vector w with w·x = 1 on its plane, about a centre within the hull: q is beyond where w·q > 1. As w
 //! are the corners of the polar polytope, steps to neighbours of larger w·q find the largest one.
 //!
+//! An edge between facets on one plane is flat: it has no length in the diagram. Of its four sites the last one, s, found the
+//! facet of the others on its plane and left it there, and was joined to that edge: `mark` tells it from then on, for
+//! facets on one plane are taken away together.
+//!
 //! # Guarantees
 //! Every facet is that of exact arithmetic. Four stages decide, each where the one before cannot tell: w·q in doubles with
 //! the facet's bound of the error; then those of `incircle`, differences of sites in doubles, in twofold numbers, integers.
@@ -40,7 +44,7 @@ pub(super) struct Facet {
     pub across: [u32; 3],
     /// w·q is right to this much where q is near the plane.
     pub error: f32,
-    /// What is known of its corner, once the hull is built.
+    /// Bit k, from 0 to 2: whether the edge opposite to site k is flat. No other bits are set once the hull is built.
     pub mark: u32,
 }
 
@@ -86,6 +90,7 @@ impl Hull {
         self.planes.clear();
         self.ring.clear();
         self.twins.clear();
+        self.buffers.flat.clear();
         let start = match start(sites) {
             Start::Solid(start) => start,
             other => {
@@ -177,3 +182,128 @@ pub(super) fn next(k: u32) -> usize {
 
 /// About a centre closer to the origin, points are so large that rests of 24 bits do.
 const WIDE: f64 = 0.9;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::f64::consts::TAU;
+
+    /// Calls `visit` with the hull of some sites.
+    fn with_hull(hull: &mut Hull, given: &[DVec3], visit: impl FnOnce(&Hull, Sites<'_>, Shape)) {
+        let (mut keys, mut units, mut rests) = (Vec::new(), Vec::new(), Vec::new());
+        order::sort(given, &mut keys);
+        let sites = Sites::new(given, &keys, &mut units, &mut rests);
+        let shape = hull.build(sites).unwrap();
+        visit(hull, sites, shape);
+    }
+
+    /// Numbers from −1 to 1, by chance.
+    fn random(seed: &mut u64) -> f64 {
+        *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (*seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    fn lattice(half: i32) -> Vec<DVec3> {
+        let side = 2 * half + 1;
+        let part = |k: i32, by: i32| f64::from(k / by % side - half);
+        let all = (0..side.pow(3)).map(|k| DVec3::new(part(k, 1), part(k, side), part(k, side * side)));
+        all.filter(|&v| v != DVec3::ZERO).collect()
+    }
+
+    /// All integer vectors of one length, of which many are on common circles.
+    fn shell(square: i32) -> Vec<DVec3> {
+        let root = square.isqrt();
+        let all = (-root..=root).flat_map(|x| (-root..=root).map(move |y| (x, y)));
+        let rest = |(x, y): (i32, i32)| square - x * x - y * y;
+        let found = all.filter(|&place| rest(place) >= 0 && rest(place).isqrt().pow(2) == rest(place));
+        let at = |(x, y): (i32, i32)| DVec3::new(x.into(), y.into(), rest((x, y)).isqrt().into());
+        found.flat_map(|place| [at(place), at(place) * DVec3::new(1.0, 1.0, -1.0)]).collect()
+    }
+
+    /// Sites at `count` longitudes on each of some circles of latitude.
+    fn circles(count: u32, heights: &[f64]) -> Vec<DVec3> {
+        let at = |k: u32, height: f64| {
+            let (s, t) = (TAU * f64::from(k) / f64::from(count)).sin_cos();
+            DVec3::new(t, s, height)
+        };
+        heights.iter().flat_map(|&height| (0..count).map(move |k| at(k, height))).collect()
+    }
+
+    /// Sites on exact circles about the axis: integers (a, b) with a² + b² = 5525, at some heights.
+    fn prism(heights: &[f64]) -> Vec<DVec3> {
+        let square = (-75..=75).flat_map(|a| (-75..=75).map(move |b| (a, b)));
+        let circle: Vec<_> = square.filter(|(a, b)| a * a + b * b == 5525).collect();
+        assert_eq!(circle.len(), 48);
+        let at = |(a, b): (i32, i32), height: f64| DVec3::new(a.into(), b.into(), height);
+        heights.iter().flat_map(|&height| circle.iter().map(move |&place| at(place, height))).collect()
+    }
+
+    /// A grid on each face of a cube.
+    fn cubed(count: i32) -> Vec<DVec3> {
+        let at = |k: i32| f64::from(2 * k - count) / f64::from(count);
+        let grid = (0..=count).flat_map(|i| (0..=count).map(move |j| (at(i), at(j))));
+        let faces = |(s, t)| [1.0, -1.0].map(|f| [DVec3::new(f, s, t), DVec3::new(t, f, s), DVec3::new(s, t, f)]);
+        grid.flat_map(|place| faces(place).into_iter().flatten()).collect()
+    }
+
+    fn scattered(count: usize, scale: f64) -> Vec<DVec3> {
+        let mut seed = count as u64;
+        let near = |seed: &mut u64| DVec3::from_array([0, 1, 2].map(|_| random(seed)));
+        (0..count).map(|_| near(&mut seed) * scale + (1.0 - scale) * DVec3::new(0.6, 0.0, 0.8)).collect()
+    }
+
+    /// The sets of sites, and whether some edge must be flat.
+    fn sets() -> Vec<(Vec<DVec3>, bool)> {
+        let step = f64::EPSILON;
+        let twins = |sites: Vec<DVec3>| sites.iter().map(|&v| 2.0 * v).chain(sites.iter().copied()).collect();
+        let nudged =
+            |sites: Vec<DVec3>| sites.iter().zip(0..).map(|(v, k)| v * (1.0 + f64::from(k % 3) * step)).collect();
+        let seven = [-2.0, -1.0, -0.5, 0.0, 0.25, 1.0, 3.0];
+        let many: Vec<f64> = (-30..=30).map(|k| f64::from(k) * 3.0).collect();
+        let cap = |sites: Vec<DVec3>| sites.iter().map(|v| v / 65_536.0 + DVec3::Z).collect();
+        vec![
+            (lattice(1), false),
+            (lattice(2), false),
+            (lattice(5), false),
+            (cap(lattice(4)), true),
+            (circles(4, &[-0.5, 0.5]), true),
+            (circles(36, &seven), false),
+            (circles(60, &seven), false),
+            (prism(&[-10.0, 50.0]), true),
+            (prism(&many), true),
+            (cap(prism(&many)), true),
+            (shell(101), true),
+            (shell(1001), true),
+            (shell(5525), true),
+            (twins(shell(1001)), true),
+            (nudged(shell(1001)), false),
+            (cubed(1), true),
+            (cubed(8), false),
+            (cubed(17), true),
+            (nudged(cubed(8)), false),
+            (twins(cubed(4)), false),
+            (twins(scattered(300, 1.0)), false),
+            (scattered(12, 1.0), false),
+            (scattered(3000, 1.0), false),
+            (scattered(1000, 1e-9), false),
+            (shell(5525).into_iter().chain(scattered(300, 1.0)).collect(), true),
+        ]
+    }
+
+    #[test]
+    fn marks_tell_flat_edges_from_all_others() {
+        let mut hull = Hull::default();
+        for (number, (given, want)) in sets().into_iter().enumerate() {
+            with_hull(&mut hull, &given, |hull, sites, shape| {
+                assert_eq!(shape, Shape::Solid, "set {number}");
+                let mut some = false;
+                for (f, facet) in (0..).zip(&hull.facets) {
+                    let flat = (0..3).filter(|&k| hull.is_flat(sites, 4 * f + k)).map(|k| 1 << k).sum::<u32>();
+                    assert_eq!(facet.mark, flat, "set {number}, facet {f} of {}", hull.facets.len());
+                    some |= flat != 0;
+                }
+                assert!(some || !want, "set {number} has no flat edge");
+            });
+        }
+    }
+}

@@ -27,6 +27,8 @@ pub(super) struct Buffers {
     open: Vec<u32>,
     /// Edges into facets that stay, counter-clockwise.
     rim: Vec<u32>,
+    /// Which of these are of facets with the site on their plane.
+    pub flat: Vec<u32>,
 }
 
 /// What a site finds of the hull.
@@ -54,6 +56,17 @@ impl<'a> Points<'a> {
         self.in_circle(facet, site) > 0
     }
 
+    /// The same where the plane cannot tell; adds `edge` to `flat` if the site is on the plane.
+    #[cold]
+    #[inline(never)]
+    fn is_beyond_circle(&self, facet: &Facet, site: u32, edge: usize, flat: &mut Vec<u32>) -> bool {
+        let side = in_circle_of_sites(self.sites, facet.sites, site);
+        if side == 0 {
+            flat.push(edge as u32);
+        }
+        side > 0
+    }
+
     #[cold]
     #[inline(never)]
     fn in_circle(&self, facet: &Facet, site: u32) -> i32 {
@@ -69,8 +82,13 @@ impl Hull {
         match self.locate(points, site, point, near) {
             Place::Beyond(facet) => loop {
                 if let Some(count) = self.dig(points, site, point, facet) {
-                    break Ok(self.fill(points, site, point, count));
+                    let new = self.fill(points, site, point, count);
+                    if !self.buffers.flat.is_empty() {
+                        self.mark_flat();
+                    }
+                    break Ok(new);
                 }
+                self.buffers.flat.clear();
                 // A hole of more facets than there are.
                 if self.buffers.hole.len() >= self.facets.len() + ROOM {
                     break inconsistent;
@@ -173,7 +191,7 @@ impl Hull {
     fn dig(&mut self, points: &Points<'_>, site: u32, point: DVec3, facet: u32) -> Option<usize> {
         let facets = &self.facets[..];
         let planes = &self.planes[..facets.len()];
-        let Buffers { hole, open, rim } = &mut self.buffers;
+        let Buffers { hole, open, rim, flat } = &mut self.buffers;
         let room = hole.len().min(open.len()).min(rim.len());
         let (hole, open, rim) = (&mut hole[..room], &mut open[..room], &mut rim[..room]);
         if room < 8 {
@@ -185,7 +203,9 @@ impl Hull {
         (open[0], open[1]) = (c, b);
         loop {
             let there = &facets[(across >> 2) as usize];
-            if points.is_beyond(there, planes[(across >> 2) as usize], site, point) {
+            let excess = planes[(across >> 2) as usize].dot(point) - 1.0;
+            let is_sure = excess.abs() > f64::from(there.error);
+            if if is_sure { excess > 0.0 } else { points.is_beyond_circle(there, site, closed, flat) } {
                 if found + ROOM > room {
                     return None;
                 }
@@ -236,6 +256,18 @@ impl Hull {
             (before, from, d) = (here, to, e);
         }
         hole[0]
+    }
+
+    /// Marks edges on the rim as flat, in the facet that stays and in the new one.
+    #[cold]
+    #[inline(never)]
+    fn mark_flat(&mut self) {
+        let Buffers { hole, rim, flat, .. } = &mut self.buffers;
+        for edge in flat.drain(..) {
+            let across = rim[edge as usize];
+            self.facets[(across >> 2) as usize].mark |= 1 << (across & 3);
+            self.facets[hole[edge as usize] as usize].mark = 1 << 2;
+        }
     }
 }
 
