@@ -43,7 +43,18 @@ impl<const N: usize> Integer<N> {
         }
     }
 
-    fn magnitude(&self) -> &[u64] {
+    /// The same without its sign.
+    pub fn magnitude(mut self) -> Self {
+        self.negative = false;
+        self
+    }
+
+    /// The integer times 2^`power`.
+    pub fn times_power(&self, power: usize) -> Self {
+        self.multiply(&Self::from_parts(false, 1, power))
+    }
+
+    fn digits(&self) -> &[u64] {
         &self.digits[..self.len]
     }
 
@@ -57,7 +68,7 @@ impl<const N: usize> Integer<N> {
     }
 
     fn compare_magnitude(&self, other: &Self) -> Ordering {
-        self.len.cmp(&other.len).then_with(|| self.magnitude().iter().rev().cmp(other.magnitude().iter().rev()))
+        self.len.cmp(&other.len).then_with(|| self.digits().iter().rev().cmp(other.digits().iter().rev()))
     }
 
     pub fn negate(mut self) -> Self {
@@ -67,9 +78,9 @@ impl<const N: usize> Integer<N> {
 
     pub fn multiply(&self, other: &Self) -> Self {
         let mut result = Self { negative: self.negative != other.negative, ..Self::ZERO };
-        for (i, &a) in self.magnitude().iter().enumerate() {
+        for (i, &a) in self.digits().iter().enumerate() {
             let mut carry = 0u128;
-            for (j, &b) in other.magnitude().iter().enumerate() {
+            for (j, &b) in other.digits().iter().enumerate() {
                 carry += u128::from(a) * u128::from(b) + u128::from(result.digits[i + j]);
                 result.digits[i + j] = carry as u64;
                 carry >>= 64;
@@ -173,7 +184,7 @@ mod tests {
     fn arithmetic_is_that_of_i128() {
         let values = [0, 1, -1, 7, -12, i64::MAX, i64::MIN, 1 << 40, -(1 << 33) + 1];
         let same = |got: Integer<8>, want: i128| {
-            let magnitude = got.magnitude().iter().rev().fold(0u128, |sum, &digit| sum << 64 | u128::from(digit));
+            let magnitude = got.digits().iter().rev().fold(0u128, |sum, &digit| sum << 64 | u128::from(digit));
             assert_eq!((got.sign(), magnitude), (want.signum() as i32, want.unsigned_abs()));
         };
         for a in values {
@@ -191,7 +202,7 @@ mod tests {
         let difference = power(300).subtract(&power(3));
         assert_eq!(difference.add(&power(3)).compare_magnitude(&power(300)), Ordering::Equal);
         assert_eq!(difference.len, 5);
-        assert_eq!(Integer::<8>::from_parts(false, u64::MAX, 60).magnitude(), [0xf << 60, u64::MAX >> 4]);
+        assert_eq!(Integer::<8>::from_parts(false, u64::MAX, 60).digits(), [0xf << 60, u64::MAX >> 4]);
     }
 
     #[test]

@@ -1,8 +1,9 @@
 //! The decisions that build a hull: which side of a facet, and which of two sites is nearer.
 //!
 //! # Guarantees
-//! All are exact. Where the plane of a facet cannot tell (`insertion`), three stages decide on which side a site is:
-//! differences of unit vectors in doubles, `in_circle_of_sites`; the same in twofold numbers, `in_circle`; integers.
+//! All are exact. Where the plane of a facet cannot tell (`insertion`), four stages decide on which side a site is:
+//! differences of unit vectors in doubles and in twofold numbers, `in_circle_of_offsets`; those of the sites' rays, which are
+//! right to more digits, `in_circle`; integers.
 
 use glam::DVec3;
 
@@ -22,13 +23,8 @@ pub(super) const SMALLEST: f64 = 1e-200;
 /// seen counter-clockwise.
 #[inline(never)]
 pub(super) fn in_circle(a: &Ray, b: &Ray, c: &Ray, q: &Ray) -> i32 {
-    let [d, e, f] = [b, c, q].map(|ray| ray.twofold_offset(a));
-    let size = |v: Twofold3| v.hi().abs().max_element();
-    let (s, t, r) = (size(d), size(e), size(f));
-    let bound = DIFFERENCES * (s * t + t * r + r * s);
-    let estimate = d.cross(e).dot(f).hi;
-    if bound > SMALLEST && estimate.abs() > bound {
-        return if estimate > 0.0 { 1 } else { -1 };
+    if let Some(sign) = in_circle_of_differences([b, c, q].map(|ray| ray.twofold_offset(a)), DIFFERENCES) {
+        return sign;
     }
     if let Some(sign) = in_circle_by_integers(a, b, c, q) {
         return sign;
@@ -36,11 +32,31 @@ pub(super) fn in_circle(a: &Ray, b: &Ray, c: &Ray, q: &Ray) -> i32 {
     -orientation(a, Plane::Bisector(b), Plane::Bisector(c), Plane::Bisector(q))
 }
 
-/// The same of sites by their numbers: by differences in doubles, where these can tell.
+/// The same for differences d, e, f, if `error` times the products of two sizes is not too much to tell.
+#[inline(always)]
+fn in_circle_of_differences([d, e, f]: [Twofold3; 3], error: f64) -> Option<i32> {
+    let size = |v: Twofold3| v.hi().abs().max_element();
+    let (s, t, r) = (size(d), size(e), size(f));
+    let bound = error * (s * t + t * r + r * s);
+    let estimate = d.cross(e).dot(f).hi;
+    (bound > SMALLEST && estimate.abs() > bound).then_some(if estimate > 0.0 { 1 } else { -1 })
+}
+
+/// The same of sites by their numbers.
+pub(super) fn in_circle_of_sites(sites: Sites<'_>, circle: [u32; 3], q: u32) -> i32 {
+    if let Some(sign) = in_circle_of_offsets(sites, circle, q) {
+        return sign;
+    }
+    let [a, b, c] = circle.map(|site| sites.ray(site));
+    in_circle(&a, &b, &c, &sites.ray(q))
+}
+
+/// The same where differences in doubles or in twofold numbers can tell; not if two sites have one direction.
 ///
 /// Components of the differences are right to 3 u and 2⁻⁷⁶: 9 u of the sum of the terms' sizes, 5 u from the arithmetic, and
-/// 6·2⁻⁷⁶ times the products of two sizes.
-pub(super) fn in_circle_of_sites(sites: Sites<'_>, [a, b, c]: [u32; 3], q: u32) -> i32 {
+/// 6·2⁻⁷⁶ times the products of two sizes. Twofold differences leave only these, for their arithmetic adds less than 2⁻⁹⁵.
+#[inline(never)]
+pub(super) fn in_circle_of_offsets(sites: Sites<'_>, [a, b, c]: [u32; 3], q: u32) -> Option<i32> {
     let [d, e, f] = [b, c, q].map(|site| sites.offset(site, a));
     let estimate = d.cross(e).dot(f);
     let (s, t, r) = (d.abs(), e.abs(), f.abs());
@@ -48,10 +64,9 @@ pub(super) fn in_circle_of_sites(sites: Sites<'_>, [a, b, c]: [u32; 3], q: u32) 
     let (s, t, r) = (s.max_element(), t.max_element(), r.max_element());
     let bound = TERMS * terms + RESTS * (s * t + t * r + r * s);
     if bound > SMALLEST && estimate.abs() > bound {
-        return if estimate > 0.0 { 1 } else { -1 };
+        return Some(if estimate > 0.0 { 1 } else { -1 });
     }
-    let [a, b, c] = [a, b, c].map(|site| sites.ray(site));
-    in_circle(&a, &b, &c, &sites.ray(q))
+    in_circle_of_differences([b, c, q].map(|site| sites.twofold_offset(site, a)), RESTS)
 }
 
 /// 16 u.

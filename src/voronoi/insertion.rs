@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::error::VoronoiError;
 use super::hull::{Facet, Hull, next};
-use super::incircle::{in_circle_of_sites, nearer};
+use super::incircle::{in_circle_of_offsets, in_circle_of_sites, nearer};
 use super::sites::Sites;
 
 /// The sites as points about the centre.
@@ -135,6 +135,16 @@ impl Hull {
         let is_beyond = |f: u32| points.is_beyond(&self.facets[f as usize], self.planes[f as usize], site, point);
         if points.start.contains(&site) {
             return Place::Taken(near, site);
+        }
+        // Most are on the circle of a facet and its neighbour, nearly.
+        let [a, b, c] = self.facets[near as usize].across.map(|across| across >> 2);
+        for facet in [near, a, b, c] {
+            let (here, w) = (&self.facets[facet as usize], self.planes[facet as usize]);
+            if w.dot(point) - 1.0 >= -f64::from(here.error)
+                && in_circle_of_offsets(points.sites, here.sites, site) == Some(1)
+            {
+                return Place::Beyond(facet);
+            }
         }
         let new = ray(site);
         let sites = self.facets[near as usize].sites;

@@ -117,7 +117,12 @@ type Vector<const N: usize> = [Integer<N>; 3];
 
 /// The vector along `ray`, multiplied by the power of two that makes its components integers.
 fn integers<const N: usize>(ray: &Ray) -> Vector<N> {
-    let lowest = 1 - bits(ray) as i32;
+    integers_of_bits(ray, bits(ray))
+}
+
+/// The same for integers of so many bits, at least as many as it takes.
+fn integers_of_bits<const N: usize>(ray: &Ray, bits: usize) -> Vector<N> {
+    let lowest = 1 - bits as i32;
     ray.exact.to_array().map(|component| {
         let (negative, mantissa, exponent) = parts(component);
         let zeros = mantissa.trailing_zeros().min(63);
@@ -137,16 +142,17 @@ fn bracket<const N: usize>(a: &Vector<N>, b: &Vector<N>, c: &Vector<N>) -> Integ
 }
 
 /// Sign of det(b − a, c − a, q − a) for unit vectors, where it takes small integers only: rays of at most 70 bits, and at
-/// most two different lengths in the sum of `determinant_sign` after equal ones are put together.
+/// most two different lengths in the sum of `determinant_sign` after equal ones are put together, or nearly equal ones.
 ///
 /// Brackets have at most 3·70 + 3 bits and sums of four 215, lengths 2·70 + 2; the square of such a sum times a length
 /// has at most 572, which is 9 digits.
 #[inline(never)]
 pub(super) fn in_circle_by_integers(a: &Ray, b: &Ray, c: &Ray, q: &Ray) -> Option<i32> {
-    if [a, b, c, q].map(bits).iter().any(|&bits| bits > 70) {
+    let most = [a, b, c, q].map(bits).into_iter().fold(0, usize::max);
+    if most > 70 {
         return None;
     }
-    let [a, b, c, q] = [a, b, c, q].map(integers::<12>);
+    let [a, b, c, q] = [a, b, c, q].map(|ray| integers_of_bits::<12>(ray, most));
     // det(b − a, c − a, q − a) ~ [bcq]|a| − [acq]|b| + [abq]|c| − [abc]|q|.
     let terms = [
         (bracket(&b, &c, &q), dot(&a, &a)),
@@ -156,20 +162,45 @@ pub(super) fn in_circle_by_integers(a: &Ray, b: &Ray, c: &Ray, q: &Ray) -> Optio
     ];
     let mut sums = [(Integer::<12>::ZERO, Integer::<12>::ZERO); 2];
     let mut count = 0;
-    for (factor, length) in terms {
+    for (factor, length) in &terms {
         if factor.sign() == 0 {
             continue;
         }
-        if let Some(sum) = sums[..count].iter_mut().find(|sum| sum.1.subtract(&length).sign() == 0) {
-            sum.0 = sum.0.add(&factor);
+        if let Some(sum) = sums[..count].iter_mut().find(|sum| sum.1.subtract(length).sign() == 0) {
+            sum.0 = sum.0.add(factor);
         } else if count < 2 {
-            sums[count] = (factor, length);
+            sums[count] = (*factor, *length);
             count += 1;
         } else {
-            return None;
+            return sign_by_series(&terms);
         }
     }
     Some(sign_of_two(&sums[0], &sums[1]))
+}
+
+/// Sign of the sum of some Fᵢ√Lᵢ for nearly equal Lᵢ, if three terms of a series can tell.
+///
+/// With L one of them and Lᵢ = L + D, |D| ≤ L/256: 8 L² √(Lᵢ/L) = 8 L² + 4 L D − D², to |D|³/L: the fourth term is half of
+/// that, and all others are 1/200 of it. By the bits of `in_circle_by_integers`, no number has more than 645, 11 digits.
+fn sign_by_series(terms: &[Root<12>; 4]) -> Option<i32> {
+    let mut sums = [Integer::ZERO; 3];
+    let mut error = Integer::ZERO;
+    let length = &terms[0].1;
+    for (factor, other) in terms {
+        let difference = other.subtract(length);
+        let size = difference.magnitude();
+        if size.times_power(8).subtract(length).sign() > 0 {
+            return None;
+        }
+        let (first, square) = (factor.multiply(&difference), difference.multiply(&difference));
+        let second = factor.multiply(&square);
+        error = error.add(&second.magnitude().multiply(&size));
+        sums = [sums[0].add(factor), sums[1].add(&first), sums[2].add(&second)];
+    }
+    let [whole, first, second] = sums;
+    let sum = whole.multiply(length).times_power(1).add(&first).multiply(length).times_power(2).subtract(&second);
+    let is_sure = sum.magnitude().multiply(length).subtract(&error).sign() > 0;
+    is_sure.then_some(sum.sign())
 }
 
 /// Sign of cos(q, a) − cos(q, b): (q·a)|b| − (q·b)|a|, of numbers with 2B + 2 bits, whose squares and products have 6B + 6.
@@ -233,6 +264,25 @@ mod tests {
             }
         }
         assert!(zeros > 10, "the test must meet zeros, and met {zeros}");
+    }
+
+    #[test]
+    fn nearly_equal_lengths_are_told_apart_by_a_series_as_by_roots() {
+        let mut decided = [0; 2];
+        for code in 0..3usize.pow(5) {
+            let ulps = |k: u32, x: f64| f64::from_bits(x.to_bits() + (code / 3usize.pow(k) % 3) as u64);
+            // Two meridians, and a circle on each side of the equator.
+            let at = |x: f64, y: f64, z: f64| Ray::new(DVec3::new(x, y, z));
+            let [a, b] = [at(0.8, 0.6, ulps(0, 0.25)), at(0.6, 0.8, ulps(1, 0.25))];
+            let [c, q] = [at(0.8, ulps(2, 0.6), -ulps(3, 0.25)), at(0.6, 0.8, -ulps(4, 0.25))];
+            let planes = [&b, &c, &q].map(Plane::Bisector);
+            let want = -exact_orientation(&a, planes[0], planes[1], planes[2]);
+            if let Some(sign) = in_circle_by_integers(&a, &b, &c, &q) {
+                decided[usize::from(sign > 0)] += 1;
+                assert_eq!(sign, want, "{a:?} {b:?} {c:?} {q:?}");
+            }
+        }
+        assert!(decided.iter().all(|&count| count > 60), "{decided:?}");
     }
 
     #[test]
