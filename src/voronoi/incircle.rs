@@ -44,19 +44,17 @@ fn in_circle_of_differences([d, e, f]: [Twofold3; 3], error: f64) -> Option<i32>
 
 /// The same of sites by their numbers.
 pub(super) fn in_circle_of_sites(sites: Sites<'_>, circle: [u32; 3], q: u32) -> i32 {
-    if let Some(sign) = in_circle_of_offsets(sites, circle, q) {
-        return sign;
-    }
-    let [a, b, c] = circle.map(|site| sites.ray(site));
-    in_circle(&a, &b, &c, &sites.ray(q))
+    in_circle_of_offsets(sites, circle, q).unwrap_or_else(|| {
+        let [a, b, c] = circle.map(|site| sites.ray(site));
+        in_circle(&a, &b, &c, &sites.ray(q))
+    })
 }
 
-/// The same where differences in doubles or in twofold numbers can tell; not if two sites have one direction.
+/// The same where differences in doubles or in twofold numbers can tell.
 ///
 /// Components of the differences are right to 3 u and 2⁻⁷⁶: 9 u of the sum of the terms' sizes, 5 u from the arithmetic, and
 /// 6·2⁻⁷⁶ times the products of two sizes. Twofold differences leave only these, for their arithmetic adds less than 2⁻⁹⁵.
-#[inline(never)]
-pub(super) fn in_circle_of_offsets(sites: Sites<'_>, [a, b, c]: [u32; 3], q: u32) -> Option<i32> {
+fn in_circle_of_offsets(sites: Sites<'_>, [a, b, c]: [u32; 3], q: u32) -> Option<i32> {
     let [d, e, f] = [b, c, q].map(|site| sites.offset(site, a));
     let estimate = d.cross(e).dot(f);
     let (s, t, r) = (d.abs(), e.abs(), f.abs());

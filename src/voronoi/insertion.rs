@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::error::VoronoiError;
 use super::hull::{Facet, Hull, next};
-use super::incircle::{in_circle_of_offsets, in_circle_of_sites, nearer};
+use super::incircle::{in_circle_of_sites, nearer};
 use super::sites::Sites;
 
 /// The sites as points about the centre.
@@ -121,11 +121,23 @@ impl Hull {
                 }
             }
             if next == facet {
-                break;
+                let Some(further) = self.beyond_neighbours(facet, value, point) else {
+                    break;
+                };
+                (next, value) = further;
             }
             facet = next;
         }
         self.locate_by_nearest(points, site, point, facet)
+    }
+
+    /// A facet next to a neighbour, with w·q above that of the facet: neighbours on one plane with it are no step upwards.
+    #[cold]
+    fn beyond_neighbours(&self, facet: u32, value: f64, point: DVec3) -> Option<(u32, f64)> {
+        let neighbours = self.facets[facet as usize].across.iter();
+        let further = neighbours.flat_map(|across| self.facets[(across >> 2) as usize].across);
+        let mut all = further.map(|across| (across >> 2, self.planes[(across >> 2) as usize].dot(point)));
+        all.find(|there| there.1 > value)
     }
 
     /// The same by the nearest site, exactly: some facet of it is in the hole.
@@ -135,16 +147,6 @@ impl Hull {
         let is_beyond = |f: u32| points.is_beyond(&self.facets[f as usize], self.planes[f as usize], site, point);
         if points.start.contains(&site) {
             return Place::Taken(near, site);
-        }
-        // Most are on the circle of a facet and its neighbour, nearly.
-        let [a, b, c] = self.facets[near as usize].across.map(|across| across >> 2);
-        for facet in [near, a, b, c] {
-            let (here, w) = (&self.facets[facet as usize], self.planes[facet as usize]);
-            if w.dot(point) - 1.0 >= -f64::from(here.error)
-                && in_circle_of_offsets(points.sites, here.sites, site) == Some(1)
-            {
-                return Place::Beyond(facet);
-            }
         }
         let new = ray(site);
         let sites = self.facets[near as usize].sites;
