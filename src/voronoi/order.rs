@@ -29,11 +29,47 @@ pub(super) fn sort(sites: &[DVec3], keys: &mut Vec<u64>) {
     let by_index = (0..).zip(sites);
     if sites.len() < ONE_ROUND {
         keys.extend(by_index.map(|(index, &site)| curve::<COARSE>(site) << INDEX_BITS | index));
+        if sites.len() < VERY_FEW { keys.sort_unstable() } else { sort_by_digits(keys) }
     } else {
         keys.extend(by_index.map(|(index, &site)| (curve::<DEPTH>(site) >> CUT) << INDEX_BITS | index));
+        keys.sort_unstable();
     }
-    keys.sort_unstable();
 }
+
+/// Sorts fewer than `ONE_ROUND` keys of the coarse curve, whose indices ascend, by its lower and then its upper digit.
+///
+/// No branch depends on the keys.
+fn sort_by_digits(keys: &mut [u64]) {
+    let mut other = [0; ONE_ROUND];
+    let other = &mut other[..keys.len()];
+    distribute::<0>(keys, other);
+    distribute::<1>(other, keys);
+}
+
+/// Puts keys into the order of one digit, those with the same digit in the order in which they are.
+fn distribute<const DIGIT: u32>(keys: &[u64], sorted: &mut [u64]) {
+    let digit = |key: u64| (key >> (INDEX_BITS + DIGIT * DIGIT_BITS)) as usize % DIGITS;
+    let mut places = [0u16; DIGITS];
+    for &key in keys {
+        places[digit(key)] += 1;
+    }
+    let mut before = 0;
+    for place in &mut places {
+        before += core::mem::replace(place, before);
+    }
+    for &key in keys {
+        let place = &mut places[digit(key)];
+        sorted[usize::from(*place)] = key;
+        *place += 1;
+    }
+}
+
+/// Fewer keys take less time to compare than digits to count.
+const VERY_FEW: usize = 64;
+
+/// Two digits hold a place on the coarse curve, which is below 6·4⁶.
+const DIGIT_BITS: u32 = 8;
+const DIGITS: usize = 1 << DIGIT_BITS;
 
 /// Lowest bits of the curve for which a key has no room.
 const CUT: u32 = 3 + 2 * DEPTH + INDEX_BITS - 64;
@@ -148,6 +184,25 @@ mod tests {
             let rounds = 1 + places.windows(2).filter(|pair| pair[0] > pair[1]).count();
             let want = if len < ONE_ROUND { 1 } else { 1 + (len / FIRST_ROUND).ilog2() / 3 };
             assert_eq!(rounds, want as usize, "{len} places");
+        }
+    }
+
+    #[test]
+    fn few_keys_are_sorted_like_many() {
+        let mut seed = 1u64;
+        for len in [1, 2, 63, 200, 499] {
+            for places in [1, 300, 6 << (2 * COARSE)] {
+                let place = |_| {
+                    seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                    (seed >> 33) % places
+                };
+                let places = (0..len).map(place);
+                let mut keys: Vec<u64> = places.zip(0..).map(|(place, index)| place << INDEX_BITS | index).collect();
+                let mut want = keys.clone();
+                want.sort_unstable();
+                sort_by_digits(&mut keys);
+                assert_eq!(keys, want);
+            }
         }
     }
 
