@@ -175,10 +175,13 @@ impl Hull {
 }
 
 /// The index after `k` of the three in a facet.
-#[inline]
+#[inline(always)]
 pub(super) fn next(k: u32) -> usize {
-    (k + 1 - 3 * (k >> 1)) as usize
+    usize::from(NEXT[(k & 3) as usize])
 }
+
+/// By an index in a facet, the one after it.
+const NEXT: [u8; 4] = [1, 2, 0, 0];
 
 /// About a centre closer to the origin, points are so large that rests of 24 bits do.
 const WIDE: f64 = 0.9;

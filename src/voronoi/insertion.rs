@@ -245,8 +245,10 @@ impl Hull {
     /// Joins `site` to the `count` edges on the rim of the hole; returns one of the new facets.
     #[inline(always)]
     fn fill(&mut self, points: &Points<'_>, site: u32, point: DVec3, count: usize) -> u32 {
-        self.facets.extend([Facet::NEW; 2]);
-        self.planes.extend([DVec3::ZERO; 2]);
+        for _ in 0..2 {
+            self.facets.push(Facet::NEW);
+            self.planes.push(DVec3::ZERO);
+        }
         let facets = &mut self.facets[..];
         let planes = &mut self.planes[..facets.len()];
         let (hole, rim) = (&self.buffers.hole[..count + 1], &self.buffers.rim[..count]);
@@ -295,11 +297,13 @@ impl Buffers {
 /// Places behind the facets of a hole that the search and the new facets take.
 const ROOM: usize = 4;
 
+/// By an index in a facet, the one before it.
+const BEFORE: [u8; 4] = [2, 0, 1, 0];
+
 /// The two indices after `k`.
 #[inline(always)]
 fn others(k: u32) -> (usize, usize) {
-    let after = k + 1 - 3 * (k >> 1);
-    (after as usize, (3 - k - after) as usize)
+    (next(k), usize::from(BEFORE[(k & 3) as usize]))
 }
 
 /// The plane w·x = 1 through `c` and the points at `d` and `e` from it, counter-clockwise seen from outside, and the
