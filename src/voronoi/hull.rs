@@ -122,13 +122,16 @@ impl Hull {
 
     fn add_all(&mut self, points: &Points<'_>) -> Result<(), VoronoiError> {
         self.set_first_facets(points);
-        let mut last = Ok(0);
+        let (mut near, mut bad) = (0, None);
         order::each_in_rounds(points.sites.len(), |site| {
-            if let Ok(near) = last {
-                last = self.insert(points, site, near);
+            if bad.is_none() {
+                match self.insert(points, site, near) {
+                    Some(facet) => near = facet,
+                    None => bad = Some(site),
+                }
             }
         });
-        last.map(|_| ())
+        bad.map_or(Ok(()), |site| Err(VoronoiError::Inconsistent { index: points.sites.index(site) }))
     }
 
     /// The tetrahedron: the base a b c, counter-clockwise seen from outside, and the fourth site.

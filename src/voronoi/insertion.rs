@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 
-use super::error::VoronoiError;
 use super::hull::{Facet, Hull, next};
 use super::incircle::{in_circle_of_sites, nearer};
 use super::sites::Sites;
@@ -75,10 +74,10 @@ impl<'a> Points<'a> {
 }
 
 impl Hull {
-    /// Inserts `site`, starting to look for its place at a facet; returns one of its facets.
-    pub(super) fn insert(&mut self, points: &Points<'_>, site: u32, near: u32) -> Result<u32, VoronoiError> {
+    /// Inserts `site`, starting to look for its place at a facet; returns one of its facets. None if there is no place, which
+    /// exact decisions exclude.
+    pub(super) fn insert(&mut self, points: &Points<'_>, site: u32, near: u32) -> Option<u32> {
         let point = points.points[site as usize];
-        let inconsistent = Err(VoronoiError::Inconsistent { index: points.sites.index(site) });
         match self.locate(points, site, point, near) {
             Place::Beyond(facet) => loop {
                 if let Some(count) = self.dig(points, site, point, facet) {
@@ -86,12 +85,12 @@ impl Hull {
                     if !self.buffers.flat.is_empty() {
                         self.mark_flat();
                     }
-                    break Ok(new);
+                    break Some(new);
                 }
                 self.buffers.flat.clear();
                 // A hole of more facets than there are.
                 if self.buffers.hole.len() >= self.facets.len() + ROOM {
-                    break inconsistent;
+                    break None;
                 }
                 self.buffers.grow();
             },
@@ -99,9 +98,9 @@ impl Hull {
                 if twin != site {
                     self.twins.push((site, twin));
                 }
-                Ok(facet)
+                Some(facet)
             }
-            Place::None => inconsistent,
+            Place::None => None,
         }
     }
 
@@ -218,14 +217,11 @@ impl Hull {
             let excess = planes[(across >> 2) as usize].dot(point) - 1.0;
             let is_sure = excess.abs() > f64::from(there.error);
             if if is_sure { excess > 0.0 } else { points.is_beyond_circle(there, site, closed, flat) } {
-                if found + ROOM > room {
-                    return None;
-                }
-                hole[found] = across >> 2;
+                *hole.get_mut(found)? = across >> 2;
                 found += 1;
                 let (after, before) = others(across & 3);
                 across = there.across[after];
-                open[left] = there.across[before];
+                *open.get_mut(left)? = there.across[before];
                 left += 1;
             } else {
                 rim[closed] = across;
@@ -236,6 +232,9 @@ impl Hull {
                 left -= 1;
                 across = open[left];
             }
+        }
+        if found + ROOM > room {
+            return None;
         }
         let end = facets.len() as u32;
         (hole[found], hole[found + 1], hole[found + 2]) = (end, end + 1, hole[0]);
@@ -294,7 +293,7 @@ impl Buffers {
     }
 }
 
-/// Places behind the facets of a hole that the search and the new facets take.
+/// Places behind the facets of a hole that the new facets and the search take.
 const ROOM: usize = 4;
 
 /// By an index in a facet, the one before it.
