@@ -155,6 +155,25 @@ fn specks_between_a_horizon_and_its_opposite_are_not_strips() {
     assert!(error <= allowed, "{error:e}, allowed {allowed:e}");
 }
 
+/// Found by search: the slow cells were 10⁻¹² off for cell 5, with planes at 10⁻²². Want: as above.
+#[test]
+fn a_wide_cell_of_planes_that_are_almost_one_keeps_its_digits() {
+    let a = 2f64.powi(-72);
+    let sites = [
+        DVec3::new(1.0, 1.0, a),
+        DVec3::new(1.0, 1.0, 2.0 * a),
+        DVec3::new(1.0, 1.0, 4.0 * a),
+        DVec3::new(1.0, 1.0, 2.0 * a),
+        DVec3::new(1.0, -1.0, 2.0 * a),
+        DVec3::new(-4.76837158203125e-7, 5.293955920339377e-23, 1.0),
+    ];
+    for (pole, want) in [(None, 4.188790594122191), (Some(sites[0]), 1.3089967266577143)] {
+        let got = cells::cells(&sites, pole)[5].solid_angle;
+        assert!((got / want - 1.0).abs() <= bound("slow cells", "*"), "{pole:?}: got {got}, want {want}");
+        laws::slow(&sites, pole);
+    }
+}
+
 /// The slow cells against the 512 bits of the oracle, for they judge others.
 #[test]
 fn slow_cells_are_right() {

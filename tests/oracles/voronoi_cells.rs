@@ -6,7 +6,7 @@
 //! # Accuracy
 //!
 //! Normals of bisectors are right to 10⁻³⁰ and ends of arcs to 10⁻³⁰ over the sine between two bisectors, as long as the
-//! components of a site are within 10¹⁰⁰ of each other; each cell tells this error. A cell that may be wrong by 10⁻⁴ of its
+//! components of a site are within 10¹⁰⁰ of each other; each cell tells this error. A cell that may be wrong by 10⁻¹⁵ of its
 //! solid angle, or has planes that differ by less than 10⁻²⁶, is computed again with 300 digits in place of 30: ends that
 //! are off by more than the width of a cell leave nothing of it, or make a strip of a speck, of another perimeter.
 //! Measures are then rounded to doubles: solid angles to a few units of 2⁻⁵³ relative, moments to a few of 2⁻⁵³ times the
@@ -49,7 +49,7 @@ pub fn cell(site: DVec3, others: &[DVec3], pole: Option<DVec3>) -> Cell {
     if is_sure { cell } else { cell_in::<Wide>(&planes).0 }
 }
 
-/// The cell, and whether its solid angle is right to 10⁻⁴.
+/// The cell, and whether its solid angle is right to 10⁻¹⁵.
 fn cell_in<T: Number>(planes: &[Plane]) -> (Cell, bool) {
     if planes.is_empty() {
         return (Cell { solid_angle: 4.0 * PI, moment: DVec3::ZERO, error: 0.0 }, true);
@@ -62,7 +62,7 @@ fn cell_in<T: Number>(planes: &[Plane]) -> (Cell, bool) {
     let error = if are_same { T::ERROR } else { T::PARALLEL } / doubt.sine;
     let perimeter: f64 = arcs.iter().map(Arc::length).sum();
     // Nothing may be left of a cell that is narrower than the error.
-    let is_clear = if solid_angle == 0.0 { error < 1e-20 } else { error * perimeter < 1e-4 * solid_angle };
+    let is_clear = if solid_angle == 0.0 { error < 1e-20 } else { error * perimeter < 1e-15 * solid_angle };
     (Cell { solid_angle, moment, error }, are_same && is_clear)
 }
 
