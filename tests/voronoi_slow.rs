@@ -1,11 +1,13 @@
 //! Law: cells are those that slow, independent code finds, and the circle of every corner is empty, by integers.
 #![cfg(feature = "sphere")]
 
+use std::f64::consts::PI;
+
 use bounds::voronoi::{MERGED_BY_THE_ORACLE, bound};
 use num_bigint::Sign;
 use proptest::prelude::*;
 use proptest::sample::select;
-use steradian::glam::DVec3;
+use steradian::{glam::DVec3, voronoi};
 
 mod bounds;
 #[path = "oracles/voronoi_cells.rs"]
@@ -129,6 +131,47 @@ fn a_cell_beside_sites_that_are_almost_one_keeps_its_digits() {
     let want = 2.094_395_101_989_921;
     assert!((solid_angle / want - 1.0).abs() <= bound("slow", "relative"), "{solid_angle}");
     laws::slow(&sites, None);
+}
+
+/// Found by fuzzing: thirty digits made a strip of 10⁻¹⁷ sr of the speck that cell 2 has above the horizon, of 10⁻⁴⁷ sr between
+/// planes that are opposite but for 10⁻³⁰. Want: from 300 digits, all planes intersected; the cells sum to 2π to all of them.
+#[test]
+fn specks_between_a_horizon_and_its_opposite_are_not_strips() {
+    let [a, b, c] = [1.5777218104420236e-30, 1.5777218104420453e-30, 1.0000000000000153];
+    let near = DVec3::new(3.906250000000004e-15, 5.3906250000000076e-14, -0.999999999999946);
+    let pole = DVec3::new(a, b, c);
+    let sites = [pole, DVec3::new(-a, -a, -1.0), DVec3::new(a, a, -2.0), -pole, near, -near, pole];
+    let wants = [PI, 7.947690303804437e-75, 6.651437524966858e-47, 0.0, 5.404759548884042e-14, 3.141592653589739, 0.0];
+    laws::slow(&sites, None);
+    laws::slow(&sites, Some(pole));
+    for (i, (slow, want)) in cells::cells(&sites, Some(pole)).iter().zip(wants).enumerate() {
+        let error = (slow.solid_angle - want).abs();
+        assert!(error <= bound("slow cells", "*") * want, "cell {i}: got {:e}, want {want:e}", slow.solid_angle);
+    }
+    let dome = laws::diagram(&sites, Some(pole));
+    assert_eq!(dome.cell(2).neighbors(), [4, 0, 5, voronoi::HORIZON]);
+    let perimeter = 1.6203130454590156e-16;
+    let (error, allowed) = ((dome.cell(2).solid_angle() - wants[2]).abs(), bound("slow", "planes") * perimeter);
+    assert!(error <= allowed, "{error:e}, allowed {allowed:e}");
+}
+
+/// Found by search: the slow cells were 10⁻¹² off for cell 5, with planes at 10⁻²². Want: as above.
+#[test]
+fn a_wide_cell_of_planes_that_are_almost_one_keeps_its_digits() {
+    let a = 2f64.powi(-72);
+    let sites = [
+        DVec3::new(1.0, 1.0, a),
+        DVec3::new(1.0, 1.0, 2.0 * a),
+        DVec3::new(1.0, 1.0, 4.0 * a),
+        DVec3::new(1.0, 1.0, 2.0 * a),
+        DVec3::new(1.0, -1.0, 2.0 * a),
+        DVec3::new(-4.76837158203125e-7, 5.293955920339377e-23, 1.0),
+    ];
+    for (pole, want) in [(None, 4.188790594122191), (Some(sites[0]), 1.3089967266577143)] {
+        let got = cells::cells(&sites, pole)[5].solid_angle;
+        assert!((got / want - 1.0).abs() <= bound("slow cells", "*"), "{pole:?}: got {got}, want {want}");
+        laws::slow(&sites, pole);
+    }
 }
 
 /// The slow cells against the 512 bits of the oracle, for they judge others.
