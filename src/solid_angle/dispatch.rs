@@ -1,6 +1,9 @@
 //! The kernels are compiled twice, and the processor chooses: with its vectors of four doubles and its fused multiply-add,
 //! or without. The bits are the same.
-#![allow(unsafe_code, reason = "what is compiled for a feature of the processor is unsafe to call before Rust 1.86")]
+#![allow(
+    unsafe_code,
+    reason = "what is compiled for a feature of the processor is unsafe to call before Rust 1.86; prefetching takes a pointer"
+)]
 
 #[cfg(target_arch = "x86_64")]
 mod fused;
@@ -40,4 +43,17 @@ pub(super) fn has_registers() -> bool {
 #[target_feature(enable = "avx2,fma")]
 unsafe fn fused<K: Kernel>(kernel: K) -> K::Output {
     kernel.run::<Fused>()
+}
+
+/// Brings an element of `slice` near the processor, if there is one at `index`, without waiting for it.
+#[inline(always)]
+pub(crate) fn prefetch<T>(slice: &[T], index: usize) {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(element) = slice.get(index) {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // SAFETY: nothing is read; every processor of this kind has the instruction.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(core::ptr::from_ref(element).cast()) };
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = (slice, index);
 }

@@ -144,6 +144,12 @@ impl Diagram {
         self.vertex_indices.reserve(6 * len);
     }
 
+    /// The index by which cells name the one of this site.
+    #[inline(always)]
+    pub(super) fn name(&self, index: usize) -> u32 {
+        self.owners.get(index).copied().unwrap_or(index as u32)
+    }
+
     /// Adds an edge and the corner at its start to the outline.
     #[inline(always)]
     pub(super) fn push_edge(&mut self, neighbor: u32, vertex: u32) {

@@ -27,7 +27,6 @@
 use glam::DVec3;
 
 use super::error::VoronoiError;
-use super::incircle::in_circle_of_sites;
 use super::insertion::{Buffers, Points, edge, plane};
 use super::order;
 use super::ray::Ray;
@@ -42,11 +41,26 @@ pub(super) struct Facet {
     pub sites: [u32; 3],
     /// Across the edge opposite to each site: four times the facet there, plus the index of the edge in it.
     pub across: [u32; 3],
-    /// w·q is right to this much where q is near the plane.
+    /// w·q is right to this much where q is near the plane. Then sin² of the corner's distance from the sites.
     pub error: f32,
-    /// Bit k, from 0 to 2: whether the edge opposite to site k is flat. No other bits are set once the hull is built.
+    /// Bit k, from 0 to 2: whether the edge opposite to site k is flat. Then also what `set_corner` knows.
     pub mark: u32,
 }
+
+/// The bits of a facet's mark that tell flat edges.
+pub(super) const FLATS: u32 = 0b111;
+/// Of a facet's mark: its corner is certainly above the horizon, or there is none, and good enough in doubles.
+pub(super) const ABOVE: u32 = 1 << 3;
+/// Certainly below the horizon; then this is all that is known.
+pub(super) const BELOW: u32 = 1 << 4;
+/// Not known well enough for doubles.
+pub(super) const SPECIAL: u32 = 1 << 5;
+/// The facet has its corner in the place of its plane.
+pub(super) const SET: u32 = 1 << 6;
+/// A cell has met it.
+const MET: u32 = 1 << 7;
+/// The bits above are the upper ones of the square of the shortest edge as an `f32`.
+const SHORTEST: u32 = 0xffff << 16;
 
 /// What kind of set the sites are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,6 +92,47 @@ pub(super) struct Hull {
 
 impl Facet {
     pub const NEW: Self = Self { sites: [0; 3], across: [0; 3], error: f32::INFINITY, mark: 0 };
+
+    /// Whether no cell has met it, which one does now.
+    #[inline(always)]
+    pub fn meet(&mut self) -> bool {
+        let before = self.mark;
+        self.mark |= MET;
+        before & MET == 0
+    }
+
+    /// Writes down what is known of the corner: the class, sin² of its distance and the square of the shortest edge.
+    #[inline(always)]
+    pub fn set_corner(&mut self, class: u32, reach: f64, shortest: f64) {
+        self.error = reach as f32;
+        self.mark = self.mark & (FLATS | MET)
+            | class
+            | if class == ABOVE { SET } else { 0 }
+            | (shortest as f32).to_bits() & SHORTEST;
+    }
+
+    /// Whether its corner is `ABOVE`, `BELOW` or `SPECIAL`.
+    pub fn class(&self) -> u32 {
+        self.mark & (ABOVE | BELOW | SPECIAL)
+    }
+
+    /// Whether the edge is flat.
+    #[inline(always)]
+    pub fn is_flat(&self, edge: u32) -> bool {
+        self.mark >> (edge & 3) & 1 != 0
+    }
+
+    /// sin² of the corner's distance from the sites.
+    #[inline(always)]
+    pub fn reach(&self) -> f32 {
+        self.error
+    }
+
+    /// The square of the shortest edge, rounded downwards to 8 bits.
+    #[inline(always)]
+    pub fn shortest(&self) -> f32 {
+        f32::from_bits(self.mark & SHORTEST)
+    }
 }
 
 impl Hull {
@@ -166,15 +221,6 @@ impl Hull {
         // The edge opposite to the next site: the site itself comes after the edge's index in the other facet.
         across - (across & 3) + next(across & 3) as u32
     }
-
-    /// Whether the corners on both sides of an edge are the same point, exactly.
-    #[cold]
-    pub fn is_flat(&self, sites: Sites<'_>, edge: u32) -> bool {
-        let facet = &self.facets[(edge >> 2) as usize];
-        let across = facet.across[(edge & 3) as usize];
-        let other = self.facets[(across >> 2) as usize].sites[(across & 3) as usize];
-        in_circle_of_sites(sites, facet.sites, other) == 0
-    }
 }
 
 /// The index after `k` of the three in a facet.
@@ -191,6 +237,7 @@ const WIDE: f64 = 0.9;
 
 #[cfg(test)]
 mod tests {
+    use super::super::incircle::in_circle_of_sites;
     use super::*;
     use core::f64::consts::TAU;
 
@@ -296,6 +343,14 @@ mod tests {
         ]
     }
 
+    /// Whether the corners on both sides of an edge are the same point, exactly.
+    fn is_flat(hull: &Hull, sites: Sites<'_>, facet: u32, edge: usize) -> bool {
+        let facet = &hull.facets[facet as usize];
+        let across = facet.across[edge];
+        let other = hull.facets[(across >> 2) as usize].sites[(across & 3) as usize];
+        in_circle_of_sites(sites, facet.sites, other) == 0
+    }
+
     #[test]
     fn marks_tell_flat_edges_from_all_others() {
         let mut hull = Hull::default();
@@ -304,7 +359,7 @@ mod tests {
                 assert_eq!(shape, Shape::Solid, "set {number}");
                 let mut some = false;
                 for (f, facet) in (0..).zip(&hull.facets) {
-                    let flat = (0..3).filter(|&k| hull.is_flat(sites, 4 * f + k)).map(|k| 1 << k).sum::<u32>();
+                    let flat = (0..3).filter(|&k| is_flat(hull, sites, f, k as usize)).map(|k| 1 << k).sum::<u32>();
                     assert_eq!(facet.mark, flat, "set {number}, facet {f} of {}", hull.facets.len());
                     some |= flat != 0;
                 }

@@ -16,7 +16,7 @@ use core::f64::consts::PI;
 use glam::DVec3;
 
 use super::clip::{Cell, Edge, View};
-use super::ordinary::arc_over_sine_less_one;
+use super::series::arc_over_sine_less_one;
 use super::twofold::Twofold3;
 use crate::float::atan2;
 

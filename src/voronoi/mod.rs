@@ -50,12 +50,13 @@
 //!
 //! The corners are the facets of the convex hull of the unit vectors, built site by site in a biased randomised order along
 //! a space-filling curve: expected time grows as n log n. Doubles with a bound of their error decide, then twofold numbers,
-//! then integers. Sites on one circle are sorted around it. Cells of well-shaped corners within 37° of their site are
-//! measured edge by edge, some cells side by side, and so are their parts above a horizon; all others corner by corner, in
+//! then integers. Sites on one circle are sorted around it. Each facet adds to the cells of its three sites the quadrilaterals
+//! between site, corner and the middles of its edges, some facets side by side; a horizon cuts these at the edges that it
+//! crosses. Cells with corners that are not well shaped or farther than 37°, and thin ones, are measured corner by corner, in
 //! twofold numbers where they are small, sharp or thin.
 //!
-//! Sites are numbered along the curve, and vertices in the order in which their cells meet them. They take the place of the
-//! planes of the hull, and cells are measured as they come, so that a million sites take 290 bytes each, results included.
+//! Sites are numbered along the curve. Vertices take the place of the planes of the hull, in whose order they are, so that a
+//! million sites take 290 bytes each, results included.
 //! Measures included, a thousand sites take 0.3 to 0.4 µs each and a million 0.9 to 1.3 µs, up to 2.6 times that on grids of
 //! latitudes and longitudes, whose circles integers decide. Sites almost on one circle have sharp corners and thin cells
 //! only, which cost about 6 µs a site: docs/performance.md.
@@ -70,25 +71,23 @@
 //! Brown (1979), Voronoi diagrams from convex hulls; Amenta, Choi and Rote (2003), Incremental constructions con BRIO;
 //! Sutherland and Hodgman (1974), Reentrant polygon clipping; Girard (1626) and Lambert (1760) for the measures.
 
-mod batches;
 mod builder;
 mod clip;
-mod corner;
 mod diagram;
 mod error;
 mod exact;
+mod facets;
 mod hull;
 mod incircle;
 mod insertion;
-mod lanes;
 mod locator;
 mod measure;
 mod order;
-mod ordinary;
 mod outlines;
 mod predicate;
 mod ray;
 mod ring;
+mod series;
 mod shared;
 mod sites;
 mod spokes;

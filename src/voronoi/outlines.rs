@@ -1,38 +1,34 @@
 //! From the hull to the diagram: one walk along the curve measures the cells and writes down their outlines.
 //!
 //! # Model
-//! A cell's corners are the facets around its site. A corner is held as its difference from the lowest of its sites until all
-//! cells are done. Ordinary cells are measured some at a time, others here, one by one.
+//! A cell's corners are the facets around its site, whose planes they replace. Ordinary cells are measured by their facets, in
+//! `facets`; others here, one by one.
 
 use glam::DVec3;
 
 use super::HORIZON;
 use super::clip::{Cell, View};
-use super::corner::{ABOVE, BELOW, Batch, Class, SET, SPECIAL};
 use super::diagram::{Diagram, NO_VERTEX, Record};
-use super::hull::{Facet, Hull, Shape};
-use super::lanes::{Lanes, SURE};
+use super::facets::{self, Batch};
+use super::hull::{ABOVE, BELOW, Facet, Hull, SET, SPECIAL, Shape};
 use super::measure::{Measure, is_thin};
-use super::ordinary::{Side, Sum};
 use super::predicate::orientation;
 use super::ray::Ray;
+use super::series::{arc_over_sine_less_one, arctangent};
 use super::shared::Shared;
 use super::sites::Sites;
-use super::spokes::{Around, Spoke, Spokes};
+use super::spokes::{Known, STEPS, Spoke, Spokes, facet, neighbor};
+use crate::solid_angle::dispatch::prefetch;
 
 /// What the walk works with, to be used again.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Outlines {
     /// Of some cells at a time.
-    pub spokes: Spokes,
-    pub batch: Box<Batch>,
-    pub lanes: Box<Lanes>,
-    /// Neighbours and vertices.
-    pub written: Vec<(u32, u32)>,
+    spokes: Spokes,
+    batch: Box<Batch>,
+    shared: Shared,
     /// Of one cell.
     edges: Vec<Edge>,
-    classes: Vec<Class>,
-    shared: Shared,
     /// The edges of positive length of a cell that is cut, and the rays of the neighbours.
     around: Vec<Across>,
     ids: Vec<u32>,
@@ -45,8 +41,9 @@ pub(super) struct Outlines {
 #[derive(Clone, Copy, Debug)]
 struct Across {
     neighbor: u32,
-    /// The vertex where it starts.
+    /// The vertex where it starts, and whether that may be on the horizon.
     vertex: u32,
+    is_special: bool,
     /// Where `Shared` has the corners in which it leaves the hemisphere and enters it.
     exit: u32,
     entry: u32,
@@ -55,25 +52,20 @@ struct Across {
 /// An edge of a cell, and the corner where it starts.
 #[derive(Clone, Copy, Debug)]
 struct Edge {
-    /// The corner less the site, if the class is `ABOVE`.
-    offset: DVec3,
-    square: f64,
-    class: Class,
-    vertex: u32,
-    /// Four times the facet, plus the index of the edge in it.
-    edge: u32,
+    /// sin² of the corner's distance from the site, if it is above the horizon.
+    reach: f32,
+    class: u32,
+    spoke: Spoke,
     neighbor: u32,
     is_flat: bool,
 }
 
 /// The parts of a diagram under construction.
-pub(super) struct Walk<'a> {
-    pub hull: &'a mut Hull,
-    /// Of all vertices.
-    pub classes: Vec<Class>,
-    pub sites: Sites<'a>,
-    pub pole: Option<&'a Ray>,
-    pub diagram: &'a mut Diagram,
+struct Walk<'a> {
+    hull: &'a mut Hull,
+    sites: Sites<'a>,
+    pole: Option<&'a Ray>,
+    diagram: &'a mut Diagram,
 }
 
 impl Outlines {
@@ -88,10 +80,7 @@ impl Outlines {
         let edges = (4 * hull.facets.len()).max(2 * hull.ring.len());
         self.shared.reset(hull.facets.len(), if pole.is_some() { edges } else { 0 });
         set_owners(&hull.twins, sites, diagram);
-        let classes = core::mem::take(&mut self.classes);
-        let mut walk = Walk { hull, classes, sites, pole: pole.as_ref(), diagram };
-        walk.classes.clear();
-        walk.classes.resize(walk.hull.facets.len(), SPECIAL);
+        let mut walk = Walk { hull, sites, pole: pole.as_ref(), diagram };
         match shape {
             Shape::Point => {
                 self.around.clear();
@@ -101,90 +90,136 @@ impl Outlines {
             Shape::Solid => self.add_cells(&mut walk),
         }
         if pole.is_some() || self.shared.has_flats() {
-            self.shared.renumber(&walk.classes, &mut walk.hull.planes, &mut walk.diagram.vertex_indices);
+            self.shared.renumber(&hull.facets, &mut hull.planes, &mut diagram.vertex_indices);
         }
-        self.classes = walk.classes;
     }
 
-    /// Adds a cell some of whose corners or edges need more than ordinary ones do.
+    /// Adds all cells of a solid hull.
+    ///
+    /// Facets of few sites are measured in the order in which they lie, those of many as cells meet them: what they add to is
+    /// then in the cache still from others.
+    fn add_cells(&mut self, walk: &mut Walk<'_>) {
+        self.spokes.reset(&walk.hull.facets, walk.sites.len());
+        if walk.sites.len() < MANY {
+            self.spokes.meet_all(walk.hull.facets.len());
+            self.add_facets(walk);
+            self.add_cells_in_turn::<false>(walk);
+        } else {
+            self.add_cells_in_turn::<true>(walk);
+        }
+    }
+
+    fn add_facets(&mut self, walk: &mut Walk<'_>) {
+        let pole = walk.pole.map(|pole| pole.unit);
+        facets::add_facets(&mut self.batch, self.spokes.met(), walk.hull, walk.sites, pole, walk.diagram);
+    }
+
+    fn add_cells_in_turn<const MEETS: bool>(&mut self, walk: &mut Walk<'_>) {
+        loop {
+            let count = self.spokes.next::<MEETS>(&mut walk.hull.facets);
+            if count == 0 {
+                break;
+            }
+            if MEETS {
+                let Walk { hull, sites, diagram, .. } = walk;
+                self.spokes.each_ahead(|site, first| {
+                    let name = sites.index(site);
+                    prefetch(&diagram.solid_angles, name);
+                    prefetch(&diagram.vector_moments, name);
+                    prefetch(&diagram.records, name);
+                    prefetch(&hull.facets, (first >> 2) as usize);
+                    prefetch(&hull.planes, (first >> 2) as usize);
+                });
+                self.add_facets(walk);
+            }
+            for cell in 0..count {
+                let start = walk.diagram.neighbors.len();
+                if !self.add_ordinary_cell(cell, walk) {
+                    walk.diagram.drop_outline(start);
+                    self.add_uneven_cell(cell, walk);
+                }
+            }
+        }
+    }
+
+    /// Writes down the outline of a cell that facets have measured, unless it is not for doubles or has too many edges.
+    #[inline(always)]
+    fn add_ordinary_cell(&mut self, cell: usize, walk: &mut Walk<'_>) -> bool {
+        let Walk { hull: Hull { facets, .. }, sites, diagram, .. } = walk;
+        let (site, spokes) = (self.spokes.site(cell), self.spokes.spokes(cell, facets));
+        let start = diagram.neighbors.len();
+        let (mut known, mut neighbors) = (Known::NOTHING, [0; STEPS]);
+        for (&spoke, name) in spokes.iter().zip(&mut neighbors) {
+            let facet = facet(facets, spoke);
+            known.add(facet);
+            *name = sites.index(neighbor(facet, spoke)) as u32;
+        }
+        let Some(neighbors) = neighbors.get_mut(..spokes.len()) else { return false };
+        let is_thin = || is_thin(diagram.solid_angles[diagram.name(sites.index(site)) as usize], known.reach.into());
+        if !known.is_ordinary() || known.may_be_thin() && is_thin() {
+            return false;
+        }
+        if !diagram.owners.is_empty() {
+            neighbors.iter_mut().for_each(|name| *name = diagram.owners[*name as usize]);
+        }
+        if known.has_flats() {
+            for (k, (&spoke, &name)) in spokes.iter().zip(&*neighbors).enumerate() {
+                let facet = facet(facets, spoke);
+                if !facet.is_flat(spoke) {
+                    diagram.push_edge(name, spoke >> 2);
+                } else if neighbor(facet, spoke) > site {
+                    self.shared.push_flat(spoke >> 2, spokes[if k + 1 == spokes.len() { 0 } else { k + 1 }] >> 2);
+                }
+            }
+        } else {
+            diagram.vertex_indices.extend(spokes.iter().map(|spoke| spoke >> 2));
+            diagram.neighbors.extend_from_slice(neighbors);
+        }
+        walk.set_record(site, start);
+        true
+    }
+
+    /// Adds a cell some of whose corners need more than ordinary ones do, or that is thin.
     #[inline(never)]
-    pub fn add_uneven_cell(&mut self, around: Around, walk: &mut Walk<'_>) {
-        let site = around.site;
-        let classes = self.set_edges(around, walk);
-        let sum = self.sum_edges(site, walk);
+    fn add_uneven_cell(&mut self, cell: usize, walk: &mut Walk<'_>) {
+        let site = self.spokes.site(cell);
+        let classes = self.set_edges(cell, walk);
         let start = walk.diagram.neighbors.len();
         let measures = match classes {
             BELOW => Some((0.0, DVec3::ZERO)),
-            ABOVE_AND_BELOW => self.clipped_cell(site, sum, walk),
+            ABOVE_AND_BELOW => self.clipped_cell(site, walk),
             _ => None,
         };
-        match measures {
-            Some((solid_angle, vector_moment)) => {
-                let end = walk.diagram.neighbors.len();
-                walk.finish(site, start, end, solid_angle, vector_moment);
-            }
-            None => {
-                walk.diagram.drop_outline(start);
-                self.around.clear();
-                for (k, start) in self.edges.iter().enumerate() {
-                    let end = &self.edges[if k + 1 == self.edges.len() { 0 } else { k + 1 }];
-                    let is_below = start.class | end.class == BELOW;
-                    if !(start.is_flat || is_below && walk.hull.is_flat(walk.sites, start.edge)) {
-                        let Edge { neighbor, vertex, edge, .. } = *start;
-                        self.around.push(Across { neighbor, vertex, exit: edge, entry: walk.across(edge) });
-                    }
-                }
-                self.add_cut_cell(site, walk);
-            }
+        if let Some(measures) = measures {
+            walk.finish(site, start, measures);
+            return;
         }
+        walk.diagram.drop_outline(start);
+        self.around.clear();
+        for &Edge { neighbor, spoke, class, .. } in self.edges.iter().filter(|edge| !edge.is_flat) {
+            let (vertex, is_special) = (spoke >> 2, class == SPECIAL);
+            let (exit, entry) = (spoke, walk.across(spoke));
+            self.around.push(Across { neighbor, vertex, is_special, exit, entry });
+        }
+        self.add_cut_cell(site, walk);
     }
 
     /// Sets `edges`; gives the classes of all corners.
-    fn set_edges(&mut self, around: Around, walk: &Walk<'_>) -> Class {
+    fn set_edges(&mut self, cell: usize, walk: &Walk<'_>) -> u32 {
+        let facets = &walk.hull.facets[..];
         let mut classes = 0;
         self.edges.clear();
-        for pair in self.spokes.all[around.start..=around.start + around.count].windows(2) {
-            let [spoke, after] = pair else { continue };
-            let offset = walk.hull.planes[spoke.vertex as usize] + self.spokes.offsets[spoke.lowest as usize];
-            let class = walk.classes[spoke.vertex as usize] & CLASSES;
-            let (square, is_flat) = (offset.length_squared(), walk.is_flat(*spoke));
-            let (vertex, edge, neighbor) = (spoke.vertex, spoke.edge, after.before);
-            self.edges.push(Edge { offset, square, class, vertex, edge, neighbor, is_flat });
+        let site = self.spokes.site(cell);
+        for &spoke in self.spokes.spokes(cell, facets) {
+            let facet = facet(facets, spoke);
+            let (class, is_flat, neighbor) = (facet.class(), facet.is_flat(spoke), neighbor(facet, spoke));
+            if is_flat && neighbor > site {
+                self.shared.push_flat(spoke >> 2, walk.across(spoke) >> 2);
+            }
+            self.edges.push(Edge { reach: facet.reach(), class, spoke, neighbor, is_flat });
             classes |= class;
         }
         classes
-    }
-
-    /// Sums the edges between corners above the horizon, and finds which of those to later sites have no length.
-    fn sum_edges(&mut self, site: u32, walk: &mut Walk<'_>) -> Sum {
-        let unit = walk.sites.unit(site);
-        let mut sum = Sum::default();
-        for k in 0..self.edges.len() {
-            let (start, end) = (self.edges[k], self.edges[if k + 1 == self.edges.len() { 0 } else { k + 1 }]);
-            let classes = start.class | end.class;
-            // Below the horizon nobody asks, but for a cell that is cut.
-            let mut has_length = classes == ABOVE_AND_BELOW || classes == BELOW;
-            if classes == ABOVE {
-                let side = Side::new(unit, unit + start.offset, start.offset, end.offset, start.square + end.square);
-                has_length = side.chord.length_squared() > SURE * start.square;
-                sum.add(&side);
-            }
-            if start.neighbor > site && !has_length {
-                self.edges[k].is_flat |= self.find_flat(start.edge, start.vertex, end.vertex, walk);
-            }
-        }
-        sum
-    }
-
-    /// Whether an edge from vertex `start` to vertex `end` has no length; then it is marked on both sides.
-    pub fn find_flat(&mut self, edge: u32, start: u32, end: u32, walk: &mut Walk<'_>) -> bool {
-        let is_flat = walk.hull.is_flat(walk.sites, edge);
-        if is_flat {
-            walk.classes[start as usize] |= 1 << (FLAT + (edge & 3));
-            walk.classes[end as usize] |= 1 << (FLAT + (walk.across(edge) & 3));
-            self.shared.push_flat(start, end);
-        }
-        is_flat
     }
 
     /// The cells of sites on a circle.
@@ -199,58 +234,66 @@ impl Outlines {
             self.around.clear();
             // Two sites have one edge.
             if count > 2 || k == 0 {
-                self.around.push(Across { neighbor: before, vertex: 0, exit: back + 1, entry: back });
+                self.around.push(Across { neighbor: before, vertex: 0, is_special: true, exit: back + 1, entry: back });
             }
             if count > 2 || k == 1 {
-                self.around.push(Across { neighbor: after, vertex: 1, exit: here, entry: here + 1 });
+                self.around.push(Across { neighbor: after, vertex: 1, is_special: true, exit: here, entry: here + 1 });
             }
             self.add_cut_cell(site, walk);
         }
     }
 
     /// Adds the outline of a cell of ordinary corners above the horizon and some below, unless doubles are not enough.
-    fn clipped_cell(&mut self, site: u32, mut sum: Sum, walk: &mut Walk<'_>) -> Option<(f64, DVec3)> {
-        let (pole, unit) = (walk.pole?.unit, walk.sites.unit(site));
-        let mut gap = [DVec3::ZERO; 2];
+    ///
+    /// Facets have measured it but for the parts of its edges beyond the middle to the horizon, and that itself.
+    fn clipped_cell(&mut self, site: u32, walk: &mut Walk<'_>) -> Option<(f64, DVec3)> {
+        let (pole, unit, name) = (walk.pole?.unit, walk.sites.unit(site), walk.name(site) as usize);
+        let (mut solid_angle, mut moment) = (walk.diagram.solid_angles[name], walk.diagram.vector_moments[name]);
+        let mut ends = [unit; 2];
         for (k, start) in self.edges.iter().enumerate() {
             let end = &self.edges[if k + 1 == self.edges.len() { 0 } else { k + 1 }];
-            let neighbor = start.neighbor;
+            let &Edge { spoke, neighbor, .. } = start;
             let name = walk.name(neighbor);
-            match (start.class, end.class) {
-                (ABOVE, ABOVE) if !start.is_flat => walk.diagram.push_edge(name, start.vertex),
+            let beyond = match (start.class, end.class) {
+                (ABOVE, ABOVE) if start.is_flat => continue,
+                (ABOVE, ABOVE) => {
+                    walk.diagram.push_edge(name, spoke >> 2);
+                    continue;
+                }
                 (ABOVE, BELOW) => {
                     let normal = || walk.sites.offset(site, neighbor);
-                    let (vertex, exit) = self.shared.crossing(start.edge, || crossing(normal(), pole))?;
-                    walk.diagram.push_edge(name, start.vertex);
+                    let (vertex, exit) = self.shared.crossing(spoke, || crossing(normal(), pole))?;
+                    walk.diagram.push_edge(name, spoke >> 2);
                     walk.diagram.push_edge(HORIZON, vertex);
-                    let e = exit - unit;
-                    gap[0] = e;
-                    let squares = start.square + e.length_squared();
-                    sum.add(&Side::new(unit, unit + start.offset, start.offset, e, squares));
+                    ends[0] = exit;
+                    facets::triangle(unit, walk.sites.offset(neighbor, site), exit)
                 }
                 (BELOW, ABOVE) => {
                     let normal = || walk.sites.offset(neighbor, site);
-                    let (vertex, entry) = self.shared.crossing(walk.across(start.edge), || crossing(normal(), pole))?;
+                    let (vertex, entry) = self.shared.crossing(walk.across(spoke), || crossing(normal(), pole))?;
                     walk.diagram.push_edge(name, vertex);
-                    let d = entry - unit;
-                    gap[1] = d;
-                    let squares = d.length_squared() + end.square;
-                    sum.add(&Side::new(unit, entry, d, end.offset, squares));
+                    ends[1] = entry;
+                    let (solid_angle, moment) = facets::triangle(unit, walk.sites.offset(neighbor, site), entry);
+                    (-solid_angle, -moment)
                 }
-                _ => {}
-            }
+                _ => continue,
+            };
+            solid_angle += beyond.0;
+            moment += beyond.1;
         }
-        let [d, e] = gap;
-        if (unit + d).dot(unit).min((unit + e).dot(unit)) <= NEAR {
+        let [exit, entry] = ends;
+        if exit.dot(unit).min(entry.dot(unit)) <= NEAR {
             return None;
         }
-        let (at_exit, at_entry) = (d.length_squared(), e.length_squared());
-        sum.add(&Side::new(unit, unit + d, d, e, at_exit + at_entry));
+        let (d, e, chord) = (exit - unit, entry - unit, entry - exit);
+        let (at_exit, at_entry, square) = (d.length_squared(), e.length_squared(), 0.25 * chord.length_squared());
+        let cosines = 4.0 - 0.5 * (at_exit + at_entry) - 2.0 * square;
+        solid_angle += 2.0 * arctangent(unit.dot(d.cross(e)) / cosines);
+        moment += pole * ((square * (1.0 - square)).sqrt() * (1.0 + arc_over_sine_less_one(square)));
         let above = self.edges.iter().filter(|edge| edge.class == ABOVE);
-        let reach = above.map(|edge| edge.square).fold(at_exit.max(at_entry), f64::max);
-        let solid_angle = sum.solid_angle();
+        let reach = above.map(|edge| edge.reach.into()).fold(at_exit.max(at_entry), f64::max);
         let good = solid_angle >= NARROW * NARROW && !is_thin(solid_angle, reach);
-        good.then(|| (solid_angle, sum.vector_moment()))
+        good.then_some((solid_angle, moment))
     }
 
     /// Adds the cell of `site` with the edges `around`.
@@ -274,14 +317,13 @@ impl Outlines {
                 let at = edge.id;
                 // The vertex where the edges of a corner meet, or would but for the horizon, if they meet on that.
                 let from = if at != HORIZON { at } else { before.wrapping_add(1) % around.len().max(1) as u32 };
-                let vertex = around.get(from as usize).filter(|_| around.len() > 1).map(|across| across.vertex);
-                let is_there = |&vertex: &u32| {
-                    before != HORIZON && at != HORIZON
-                        || walk.is_special(vertex) && view.meet_on_horizon(from, around.len())
+                let across = around.get(from as usize).filter(|_| around.len() > 1);
+                let is_there = |across: &&Across| {
+                    before != HORIZON && at != HORIZON || across.is_special && view.meet_on_horizon(from, around.len())
                 };
-                let vertex = match (measure.corners.get(k), vertex.filter(is_there)) {
+                let vertex = match (measure.corners.get(k), across.filter(is_there)) {
                     (None, _) => NO_VERTEX,
-                    (Some(corner), Some(vertex)) => walk.set_vertex(vertex, corner.unit),
+                    (Some(corner), Some(&Across { vertex, .. })) => walk.set_vertex(vertex, corner.unit),
                     (Some(corner), None) => {
                         let goes_down = before != HORIZON;
                         let edge = if goes_down { around[before as usize].exit } else { around[at as usize].entry };
@@ -293,32 +335,31 @@ impl Outlines {
                 before = at;
             }
         }
-        let end = walk.diagram.neighbors.len();
-        walk.finish(site, start, end, solid_angle, vector_moment);
+        walk.finish(site, start, (solid_angle, vector_moment));
     }
 }
 
 impl Walk<'_> {
     /// The index by which the diagram names the cell of a site.
     #[inline(always)]
-    pub fn name(&self, site: u32) -> u32 {
-        let index = self.sites.index(site);
-        self.diagram.owners.get(index).copied().unwrap_or(index as u32)
+    fn name(&self, site: u32) -> u32 {
+        self.diagram.name(self.sites.index(site))
+    }
+
+    /// Writes down where the outline of the cell of `site` is: from `start` on.
+    #[inline(always)]
+    fn set_record(&mut self, site: u32, start: usize) {
+        let count = self.diagram.neighbors.len() - start;
+        let name = self.name(site) as usize;
+        self.diagram.records[name] = Record { place: site, start: start as u32, count: count as u32 };
     }
 
     /// Writes down the cell of `site`, whose outline starts at `start`.
-    #[inline(always)]
-    pub fn finish(&mut self, site: u32, start: usize, end: usize, solid_angle: f64, vector_moment: DVec3) {
+    fn finish(&mut self, site: u32, start: usize, (solid_angle, vector_moment): (f64, DVec3)) {
+        self.set_record(site, start);
         let name = self.name(site) as usize;
-        let count = (end - start) as u32;
-        self.diagram.records[name] = Record { place: site, start: start as u32, count };
         self.diagram.solid_angles[name] = solid_angle;
         self.diagram.vector_moments[name] = vector_moment;
-    }
-
-    /// Whether the edge that starts there is marked as one of no length.
-    pub fn is_flat(&self, spoke: Spoke) -> bool {
-        self.classes[spoke.vertex as usize] >> (FLAT + (spoke.edge & 3)) & 1 != 0
     }
 
     /// The same edge seen from the other site.
@@ -326,14 +367,10 @@ impl Walk<'_> {
         self.hull.facets[(edge >> 2) as usize].across[(edge & 3) as usize]
     }
 
-    fn is_special(&self, facet: u32) -> bool {
-        self.classes[facet as usize] & SPECIAL != 0
-    }
-
-    /// Gives the corner of a facet, which the first of its cells has computed if doubles could not.
+    /// Gives a facet its corner, unless it has one, of doubles or of the first cell that could not do with these.
     fn set_vertex(&mut self, facet: u32, corner: DVec3) -> u32 {
-        let mark = &mut self.classes[facet as usize];
-        if *mark & (SPECIAL | SET) == SPECIAL {
+        let mark = &mut self.hull.facets[facet as usize].mark;
+        if *mark & SET == 0 {
             *mark |= SET;
             self.hull.planes[facet as usize] = corner;
         }
@@ -391,8 +428,7 @@ const NEAR: f64 = 0.6;
 /// Clipped cells narrower than this need more than doubles on the horizon.
 const NARROW: f64 = 1.0 / 64.0;
 
-const ABOVE_AND_BELOW: Class = ABOVE | BELOW;
+/// Of fewer sites the measures are in the cache whatever the order.
+const MANY: usize = 1 << 15;
 
-/// The bits of a facet's mark: the class of its corner, `SET`, and, from `FLAT` on, which of its edges have no length.
-pub(super) const CLASSES: Class = ABOVE | BELOW | SPECIAL;
-const FLAT: u32 = 4;
+const ABOVE_AND_BELOW: u32 = ABOVE | BELOW;

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::corner::{ABOVE, Class, SET};
 use super::diagram::NO_VERTEX;
+use super::hull::{Facet, SET};
 
 /// Which corners are the same, and those on the horizon.
 #[derive(Clone, Debug, Default)]
@@ -55,34 +55,34 @@ impl Shared {
 
     /// Leaves of the corners of facets, in `vertices`, and of those on the horizon each one once that is in `indices`.
     #[inline(never)]
-    pub fn renumber(&mut self, classes: &[Class], vertices: &mut Vec<DVec3>, indices: &mut [u32]) {
+    pub fn renumber(&mut self, facets: &[Facet], vertices: &mut Vec<DVec3>, indices: &mut [u32]) {
         let Self { flats, points, lower, numbers, .. } = self;
         let mut count = 0;
         numbers.clear();
         if flats.is_empty() {
             // Whether a corner is there is a matter of chance: no branch.
-            for (f, class) in classes.iter().enumerate() {
+            for (f, facet) in facets.iter().enumerate() {
                 vertices[count as usize] = vertices[f];
                 numbers.push(count);
-                count += u32::from(class & (ABOVE | SET) != 0);
+                count += u32::from(facet.mark & SET != 0);
             }
         } else {
-            numbers.resize(classes.len(), NONE);
+            numbers.resize(facets.len(), NONE);
             lower.clear();
-            lower.extend(0..classes.len() as u32);
+            lower.extend(0..facets.len() as u32);
             for &(a, b) in flats.iter() {
                 let (a, b) = (root(lower, a), root(lower, b));
                 lower[a.max(b) as usize] = a.min(b);
             }
-            for (f, class) in classes.iter().enumerate() {
+            for (f, facet) in facets.iter().enumerate() {
                 let root = root(lower, f as u32) as usize;
-                if numbers[root] == NONE && class & (ABOVE | SET) != 0 {
+                if numbers[root] == NONE && facet.mark & SET != 0 {
                     vertices[count as usize] = vertices[f];
                     numbers[root] = count;
                     count += 1;
                 }
             }
-            for f in 0..classes.len() {
+            for f in 0..facets.len() {
                 numbers[f] = numbers[root(lower, f as u32) as usize];
             }
         }

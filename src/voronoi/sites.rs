@@ -64,11 +64,17 @@ impl<'a> Sites<'a> {
         self.units[site as usize]
     }
 
+    /// What the unit vector of a site leaves, to 24 bits.
+    #[inline(always)]
+    pub fn rest(&self, site: u32) -> DVec3 {
+        DVec3::from_array(self.rests[site as usize].map(f64::from))
+    }
+
     /// The unit vector of a site less a vector of doubles, each component right to u of itself and 2⁻⁷⁷.
     #[inline(always)]
     pub fn minus(&self, site: u32, v: DVec3) -> DVec3 {
         let difference = Twofold3::from_difference(self.unit(site), v);
-        difference.hi() + (difference.lo() + DVec3::from_array(self.rests[site as usize].map(f64::from)))
+        difference.hi() + (difference.lo() + self.rest(site))
     }
 
     /// The unit vector of one site less that of another, each component right to 3 u and 2⁻⁷⁶.

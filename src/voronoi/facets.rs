@@ -1,0 +1,417 @@
+//! The corners of the facets of a hull, and what each facet adds to the cells of its three sites: some at a time, component by
+//! component, so that one instruction does several.
+//!
+//! # Model
+//! With d, e, f the edges of a facet a b c from a to b, from a to c and from b to c, and n = d × e, the corner is
+//! (a + x) / cos R with x = (|e|² (−d·f) d + |d|² (e·f) e) / 2|n|² and sin R = |x|; the same from each of the sites.
+//!
+//! From there to the middle between two of the sites, θ apart, it is an arc y with sin y = tan(θ/2) cot γ, where γ is the angle
+//! of the plane triangle at the third site, of cot γ = d·e / |n|, −d·f / |n|, e·f / |n|. It is negative where γ is above a right
+//! angle. A cell is the sum of the right-angled triangles of its site, the middles and the corners, two for each facet: half
+//! the solid angle of one is atan(tan(θ/4) tan(y/2)), which is the same for both sites. The arcs y are the border, and so the
+//! vector moment is the sum of y v / 2|v| for the edges v towards the site.
+//!
+//! # Guarantees
+//! d, e and f are right relatively, and n is taken of the two shortest of them, so that small cells keep relative accuracy.
+
+use glam::DVec3;
+
+use super::diagram::Diagram;
+use super::hull::{ABOVE, BELOW, Facet, Hull, SPECIAL};
+use super::series::{arctangent, arctangent_of_root_over, arctangent_over};
+use super::sites::Sites;
+use crate::solid_angle::{Real, dispatch, dispatch::Kernel};
+
+/// Facets whose largest angle has a smaller sine than this are not for doubles.
+const SHARP: f64 = 0.25;
+
+/// Nor facets of shorter edges than 2⁻²⁰: offsets of sites are right to 2⁻⁷⁶.
+const SHORT: f64 = 1.0 / (1u64 << 20) as f64;
+
+/// Nor those whose circle has a larger sine.
+const WIDE: f64 = 0.6;
+
+/// Corners nearer to the horizon are not certain: normals are right to 2⁻⁴⁹ of the product of the two edges.
+const NEAR_HORIZON: f64 = 1.0 / (1u64 << 44) as f64;
+
+/// Facets at a time: two for each of some cells, and as a rule some more.
+const BATCH: usize = 48;
+
+/// One number of each facet.
+type Column<T = f64> = [T; BATCH];
+
+type Columns = [Column; 3];
+
+/// Some facets.
+#[derive(Clone, Debug)]
+pub(super) struct Batch {
+    /// Of each of the three sites the unit vector and its rest.
+    units: [Columns; 3],
+    rests: [Columns; 3],
+    /// The edges opposite to the sites and their squares, the cotangents of the angles, and cos R.
+    edges: [Columns; 3],
+    squares: Columns,
+    cotangents: Columns,
+    cosine: Column,
+    /// sin² R, and the least of the squares.
+    reach: Column,
+    shortest: Column,
+    corner: Columns,
+    class: Column<u64>,
+    /// Solid angle and vector moment for each of the sites.
+    solid_angles: Columns,
+    moments: [Columns; 3],
+}
+
+impl Default for Batch {
+    fn default() -> Self {
+        const ZERO: Columns = [[0.0; BATCH]; 3];
+        Self {
+            units: [ZERO; 3],
+            rests: [ZERO; 3],
+            edges: [ZERO; 3],
+            squares: ZERO,
+            cotangents: ZERO,
+            cosine: ZERO[0],
+            reach: ZERO[0],
+            shortest: ZERO[0],
+            corner: ZERO,
+            class: [0; BATCH],
+            solid_angles: ZERO,
+            moments: [ZERO; 3],
+        }
+    }
+}
+
+#[inline(always)]
+fn at(columns: &Columns, k: usize) -> DVec3 {
+    DVec3::new(columns[0][k], columns[1][k], columns[2][k])
+}
+
+#[inline(always)]
+fn set(columns: &mut Columns, k: usize, v: DVec3) {
+    (columns[0][k], columns[1][k], columns[2][k]) = (v.x, v.y, v.z);
+}
+
+/// The first that is right, or the third.
+#[inline(always)]
+fn choose_one(is_first: bool, first: f64, is_second: bool, second: f64, third: f64) -> f64 {
+    let other = if is_second { second } else { third };
+    if is_first { first } else { other }
+}
+
+#[inline(always)]
+fn choose(is_first: bool, first: DVec3, is_second: bool, second: DVec3, third: DVec3) -> DVec3 {
+    DVec3::new(
+        choose_one(is_first, first.x, is_second, second.x, third.x),
+        choose_one(is_first, first.y, is_second, second.y, third.y),
+        choose_one(is_first, first.z, is_second, second.z, third.z),
+    )
+}
+
+/// The circle of a facet.
+struct Circle {
+    /// Of the edges opposite to the sites; the least of them, and the product of this and the next one.
+    squares: DVec3,
+    shortest: f64,
+    product: f64,
+    /// Normal of the plane, outwards, and its component along the first site.
+    n: DVec3,
+    height: f64,
+    /// 1 / |n| and 1 / cos R.
+    over_n: f64,
+    over_cosine: f64,
+    /// Of the angles at the sites.
+    cotangents: DVec3,
+    /// The centre less the first site, and sin² R.
+    x: DVec3,
+    reach: f64,
+}
+
+impl Circle {
+    /// With edges d, e from the first site `a` and f between the others.
+    #[inline(always)]
+    fn new(a: DVec3, d: DVec3, e: DVec3, f: DVec3) -> Self {
+        let (dd, ee, ff) = (d.length_squared(), e.length_squared(), f.length_squared());
+        let (at_a, at_b, at_c) = (d.dot(e), -d.dot(f), e.dot(f));
+        // From the site across the longest edge, so that no error is larger for a long triangle: counter-clockwise.
+        let (from_c, from_a) = ((dd > ee) & (dd > ff), (ff >= dd) & (ff >= ee));
+        let (v, vv) = (choose(from_c, -e, from_a, d, f), choose_one(from_c, ee, from_a, dd, ff));
+        let (w, ww) = (choose(from_c, -f, from_a, e, -d), choose_one(from_c, ff, from_a, ee, dd));
+        let (at_v, at_w) = (choose_one(from_c, at_a, from_a, at_b, at_c), choose_one(from_c, at_b, from_a, at_c, at_a));
+        let n = v.cross(w);
+        let (nn, height) = (n.length_squared(), n.dot(a));
+        let inverse = 1.0 / (nn.sqrt() * height);
+        let (over_n, over_cosine) = (height * inverse, nn * inverse);
+        let half = 0.5 * (over_n * over_n);
+        let from_there = v * (ww * at_v * half) + w * (vv * at_w * half);
+        let x = from_there + choose(from_c, e, from_a, DVec3::ZERO, d);
+        Self {
+            squares: DVec3::new(ff, ee, dd),
+            shortest: if vv < ww { vv } else { ww },
+            product: vv * ww,
+            n,
+            height,
+            over_n,
+            over_cosine,
+            cotangents: DVec3::new(at_a, at_b, at_c) * over_n,
+            x,
+            reach: x.length_squared(),
+        }
+    }
+}
+
+/// Solid angle and vector moment of the triangle of a site, the middle between it and the neighbour at `offset` from it, and
+/// `point`, which is as far from both; negative if that is on the right of the way to the neighbour.
+pub(super) fn triangle(site: DVec3, offset: DVec3, point: DVec3) -> (f64, DVec3) {
+    let square = offset.length_squared();
+    let of_middle = (1.0 - 0.25 * square).sqrt();
+    // |v| sin y and cos y, both times the cosine of θ/2; then tan(y/2) over |v|, and tan(θ/4) times |v|.
+    let (sine, cosine) = (point.dot(site.cross(offset)), point.dot(site));
+    let inverse = 1.0 / (square * (of_middle + cosine) * (1.0 + of_middle));
+    let tangent = sine * (1.0 + of_middle) * inverse;
+    let quarter = 0.5 * square * square * (of_middle + cosine) * inverse;
+    let arc = tangent * arctangent_of_root_over(square * tangent * tangent);
+    (2.0 * arctangent(quarter * tangent), -offset * arc)
+}
+
+/// Computes the corners of the facets `new` in the place of their planes, marks what is known of them, and adds to the
+/// measures in `diagram` what those of class `ABOVE` add to the cells of their sites.
+pub(super) fn add_facets(
+    batch: &mut Batch,
+    new: &[u32],
+    hull: &mut Hull,
+    sites: Sites<'_>,
+    pole: Option<DVec3>,
+    diagram: &mut Diagram,
+) {
+    dispatch::run(AddFacets { batch, new, hull, sites, pole, diagram });
+}
+
+struct AddFacets<'a> {
+    batch: &'a mut Batch,
+    new: &'a [u32],
+    hull: &'a mut Hull,
+    sites: Sites<'a>,
+    pole: Option<DVec3>,
+    diagram: &'a mut Diagram,
+}
+
+impl Kernel for AddFacets<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<T: Real>(self) {
+        let Self { batch, new, hull, sites, pole, diagram } = self;
+        for new in new.chunks(BATCH) {
+            batch.load(new, &hull.facets, sites);
+            let count = new.len().next_multiple_of(4).min(BATCH);
+            match pole {
+                Some(pole) => batch.compute_corners::<true>(count, pole),
+                None => batch.compute_corners::<false>(count, DVec3::ZERO),
+            }
+            batch.reach[new.len()..count].fill(0.0);
+            batch.compute_shares(count);
+            batch.store(new, &mut hull.facets, &mut hull.planes, sites, diagram);
+        }
+    }
+}
+
+impl Batch {
+    #[inline(always)]
+    fn load(&mut self, new: &[u32], facets: &[Facet], sites: Sites<'_>) {
+        for (lane, &f) in (0..BATCH).zip(new) {
+            let facet = &facets[f as usize];
+            for k in 0..3 {
+                set(&mut self.units[k], lane, sites.unit(facet.sites[k]));
+                set(&mut self.rests[k], lane, sites.rest(facet.sites[k]));
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn compute_corners<const HORIZON: bool>(&mut self, count: usize, pole: DVec3) {
+        for k in 0..count {
+            let [a, b, c] = [at(&self.units[0], k), at(&self.units[1], k), at(&self.units[2], k)];
+            let [p, q, r] = [at(&self.rests[0], k), at(&self.rests[1], k), at(&self.rests[2], k)];
+            let (d, e, f) = ((b - a) + (q - p), (c - a) + (r - p), (c - b) + (r - q));
+            let circle = Circle::new(a, d, e, f);
+            let Circle { squares, shortest, product, n, height, over_n, over_cosine, cotangents, x, reach } = circle;
+            let corner = (a + x) * over_cosine;
+            set(&mut self.corner, k, corner * (1.5 - 0.5 * corner.length_squared()));
+            set(&mut self.edges[0], k, f);
+            set(&mut self.edges[1], k, e);
+            set(&mut self.edges[2], k, d);
+            let is_long = shortest >= SHORT * SHORT;
+            let is_good =
+                is_long & (n.length_squared() >= SHARP * SHARP * product) & (reach <= WIDE * WIDE) & (height > 0.0);
+            let (mut is_above, mut class) = (is_good, SPECIAL);
+            if HORIZON {
+                // The component of n along the pole, over the edges: its square, with its sign.
+                let up = n.dot(pole);
+                let (up, least) = (up * up.abs(), NEAR_HORIZON * NEAR_HORIZON * product);
+                is_above = is_good & (up > least);
+                class = if is_long & (up < -least) { BELOW } else { SPECIAL };
+            }
+            self.class[k] = if is_above { ABOVE } else { class }.into();
+            // Others add nothing.
+            let or = |x: f64, other: f64| if is_above { x } else { other };
+            let or_zero = |v: DVec3| DVec3::new(or(v.x, 0.0), or(v.y, 0.0), or(v.z, 0.0));
+            set(&mut self.squares, k, or_zero(squares));
+            set(&mut self.cotangents, k, or_zero(cotangents));
+            self.cosine[k] = or(height * over_n, 1.0);
+            (self.reach[k], self.shortest[k]) = (or(reach, 0.0), shortest);
+        }
+    }
+
+    #[inline(always)]
+    fn compute_shares(&mut self, count: usize) {
+        let longest = self.reach[..count].iter().fold(0.0, |a, &b| if b > a { b } else { a });
+        // tan² of half the arcs are below sin² R / (1 + cos R)², and the square of that for the tangents of areas: so many
+        // terms of the arctangent's series leave less than 2⁻⁵⁶ of the first.
+        if longest <= 1.0 / 4096.0 {
+            self.compute_shares_by::<4, 2>(count);
+        } else if longest <= 1.0 / 64.0 {
+            self.compute_shares_by::<7, 4>(count);
+        } else if longest <= 1.0 / 8.0 {
+            self.compute_shares_by::<11, 6>(count);
+        } else {
+            self.compute_shares_by::<17, 9>(count);
+        }
+    }
+
+    #[inline(always)]
+    fn compute_shares_by<const ARC: usize, const AREA: usize>(&mut self, count: usize) {
+        for k in 0..count {
+            let cosine = self.cosine[k];
+            // Twice the solid angle of a triangle, and half of y v / |v|.
+            let share = |edge: usize| {
+                // sin² and cos of θ/2, and 1 + cos y times that, for cos R = cos y cos θ/2.
+                let square = 0.25 * self.squares[edge][k];
+                let of_middle = (1.0 - square).sqrt();
+                let (a, b) = (1.0 + of_middle, of_middle + cosine);
+                let inverse = 1.0 / (a * b);
+                // tan(y/2) over sin(θ/2), and y over twice that.
+                let tangent = self.cotangents[edge][k] * (a * inverse);
+                let arc = tangent * arctangent_over::<ARC>(square * (tangent * tangent));
+                let product = square * (b * inverse) * tangent;
+                let area = product * arctangent_over::<AREA>(product * product);
+                (2.0 * area, at(&self.edges[edge], k) * (0.5 * arc))
+            };
+            let [(at_a, f), (at_b, e), (at_c, d)] = [share(0), share(1), share(2)];
+            set(&mut self.solid_angles, k, DVec3::new(at_b + at_c, at_c + at_a, at_a + at_b));
+            set(&mut self.moments[0], k, -(d + e));
+            set(&mut self.moments[1], k, d - f);
+            set(&mut self.moments[2], k, e + f);
+        }
+    }
+
+    #[inline(always)]
+    fn store(&self, new: &[u32], facets: &mut [Facet], planes: &mut [DVec3], sites: Sites<'_>, diagram: &mut Diagram) {
+        let Diagram { solid_angles, vector_moments, owners, .. } = diagram;
+        let vector_moments = &mut vector_moments[..solid_angles.len()];
+        for (lane, &f) in (0..BATCH).zip(new) {
+            let facet = &mut facets[f as usize];
+            planes[f as usize] = at(&self.corner, lane);
+            for k in 0..3 {
+                let index = sites.index(facet.sites[k]);
+                let name = if owners.is_empty() { index } else { owners[index] as usize };
+                solid_angles[name] += self.solid_angles[k][lane];
+                vector_moments[name] += at(&self.moments[k], lane);
+            }
+            facet.set_corner(self.class[lane] as u32, self.reach[lane], self.shortest[lane]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::order;
+    use super::*;
+
+    /// Calls `visit` with the hull of `count` sites around the whole sphere, by chance.
+    fn with_hull(count: usize, visit: impl FnOnce(Hull, Sites<'_>)) {
+        let mut state = count as u64;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        };
+        let given: Vec<DVec3> = (0..count).map(|_| DVec3::new(random(), random(), random())).collect();
+        let (mut keys, mut units, mut rests, mut hull) = (Vec::new(), Vec::new(), Vec::new(), Hull::default());
+        order::sort(&given, &mut keys);
+        let sites = Sites::new(&given, &keys, &mut units, &mut rests);
+        hull.build(sites).expect("sites are consistent");
+        visit(hull, sites);
+    }
+
+    /// Numbers of sites for each number of terms of the series, all of them in the first batch with others.
+    const COUNTS: [usize; 4] = [30, 300, 4000, 300_000];
+
+    #[test]
+    fn every_processor_gives_the_same_bits() {
+        for count in COUNTS {
+            for pole in [None, Some(DVec3::new(0.6, 0.0, 0.8))] {
+                with_hull(count, |mut hull, sites| {
+                    let new: Vec<u32> = (0..hull.facets.len() as u32).collect();
+                    let (mut other, mut batch) = (hull.clone(), Batch::default());
+                    let mut diagrams = [Diagram::default(), Diagram::default()];
+                    diagrams.iter_mut().for_each(|diagram| diagram.reset(pole, count));
+                    let [diagram, plain] = &mut diagrams;
+                    let (batch, new) = (&mut batch, &new[..]);
+                    add_facets(batch, new, &mut hull, sites, pole, diagram);
+                    AddFacets { batch, new, hull: &mut other, sites, pole, diagram: plain }.run::<f64>();
+                    let bits =
+                        |v: &[DVec3]| -> Vec<[u64; 3]> { v.iter().map(|v| v.to_array().map(f64::to_bits)).collect() };
+                    assert_eq!(bits(&hull.planes), bits(&other.planes), "{count} {pole:?}");
+                    assert_eq!(bits(&diagram.vector_moments), bits(&plain.vector_moments), "{count} {pole:?}");
+                    assert!(
+                        diagram
+                            .solid_angles
+                            .iter()
+                            .map(|x| x.to_bits())
+                            .eq(plain.solid_angles.iter().map(|x| x.to_bits()))
+                    );
+                    assert!(hull.facets.iter().map(|facet| facet.mark).eq(other.facets.iter().map(|facet| facet.mark)));
+                });
+            }
+        }
+    }
+
+    #[test]
+    fn shares_of_a_facet_sum_to_its_solid_angle_and_its_corner_is_as_far_from_all_sites() {
+        for count in COUNTS {
+            with_hull(count, |mut hull, sites| {
+                let (mut batch, mut good, mut diagram) = (Batch::default(), 0, Diagram::default());
+                diagram.reset(None, count);
+                let tested = hull.facets.len().min(10_000);
+                for f in 0..tested as u32 {
+                    add_facets(&mut batch, &[f], &mut hull, sites, None, &mut diagram);
+                    let facet = hull.facets[f as usize];
+                    let [a, b, c] = facet.sites.map(|site| sites.unit(site));
+                    let shares: f64 = (0..3).map(|k| batch.solid_angles[k][0]).sum();
+                    if facet.class() != ABOVE {
+                        assert_eq!(shares, 0.0);
+                        continue;
+                    }
+                    good += 1;
+                    let want = crate::solid_angle::polygon(&[a, b, c]).expect("sites are unit vectors");
+                    let scale = f64::from(facet.reach());
+                    // Sites are rounded to doubles for the polygon.
+                    let rounded = 2.0 * f64::EPSILON * scale.sqrt();
+                    assert!(
+                        (shares - want).abs() <= 4e-15 * scale + rounded,
+                        "{count}: {shares} for {want} of {facet:?}"
+                    );
+                    let corner = hull.planes[f as usize];
+                    for d in [b - a, c - a] {
+                        assert!(
+                            corner.dot(d).abs() <= 8.0 * f64::EPSILON,
+                            "{count}: the corner of {facet:?} is {corner}"
+                        );
+                    }
+                }
+                assert!(8 * good > tested, "{good} of {tested}");
+            });
+        }
+    }
+}
