@@ -284,7 +284,7 @@ impl Batch {
     fn compute_shares_by<const ARC: usize, const AREA: usize>(&mut self, count: usize) {
         for k in 0..count {
             let cosine = self.cosine[k];
-            // Twice the solid angle of a triangle, and half of y v / |v|.
+            // The solid angle of a triangle, and half of y v / |v|.
             let share = |edge: usize| {
                 // sin² and cos of θ/2, and 1 + cos y times that, for cos R = cos y cos θ/2.
                 let square = 0.25 * self.squares[edge][k];

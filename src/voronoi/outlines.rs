@@ -133,9 +133,7 @@ impl Outlines {
                 self.add_facets(walk);
             }
             for cell in 0..count {
-                let start = walk.diagram.neighbors.len();
                 if !self.add_ordinary_cell(cell, walk) {
-                    walk.diagram.drop_outline(start);
                     self.add_uneven_cell(cell, walk);
                 }
             }
