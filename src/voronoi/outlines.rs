@@ -11,7 +11,7 @@ use super::clip::{Cell, View};
 use super::diagram::{Diagram, NO_VERTEX, Record};
 use super::facets::{self, Batch};
 use super::hull::{ABOVE, BELOW, Facet, Hull, SET, SPECIAL, Shape};
-use super::measure::{Measure, is_thin};
+use super::measure::{Measure, is_low, is_thin};
 use super::predicate::orientation;
 use super::ray::Ray;
 use super::series::{arc_over_sine_less_one, arctangent};
@@ -290,7 +290,7 @@ impl Outlines {
         moment += pole * ((square * (1.0 - square)).sqrt() * (1.0 + arc_over_sine_less_one(square)));
         let above = self.edges.iter().filter(|edge| edge.class == ABOVE);
         let reach = above.map(|edge| edge.reach.into()).fold(at_exit.max(at_entry), f64::max);
-        let good = solid_angle >= NARROW * NARROW && !is_thin(solid_angle, reach);
+        let good = !is_thin(solid_angle, reach) && !is_low(solid_angle, 4.0 * reach);
         good.then_some((solid_angle, moment))
     }
 
@@ -422,9 +422,6 @@ const SHORT: f64 = 1.0 / (1u64 << 20) as f64;
 
 /// Cells reach up to this cosine from their site, if they are to be measured from there.
 const NEAR: f64 = 0.6;
-
-/// Clipped cells narrower than this need more than doubles on the horizon.
-const NARROW: f64 = 1.0 / 64.0;
 
 /// Of fewer sites the measures are in the cache whatever the order.
 const MANY: usize = 1 << 15;
