@@ -378,6 +378,27 @@ mod tests {
     }
 
     #[test]
+    fn long_triangles_are_the_same_from_each_of_their_sites() {
+        let at = |x: f64, y: f64| DVec3::new(x, y, 1.0).normalize();
+        for short in [0.3, 1e-2, 1e-4, 1e-6] {
+            let sites = [at(0.0, 0.0), at(0.3, 0.4), at(0.3 - 0.8 * short, 0.4 + 0.6 * short)];
+            let circles = [0, 1, 2].map(|k| {
+                let [a, b, c] = [0, 1, 2].map(|i| sites[(k + i) % 3]);
+                Circle::new(a, b - a, c - a, c - b)
+            });
+            for (k, circle) in circles.iter().enumerate() {
+                let (square, reach) = (circle.n.length_squared() / circle.product, circle.reach);
+                assert!(square > 0.5, "{short}, {k}: the sine of the largest angle is the root of {square}");
+                // Offsets of sites are those of doubles.
+                let allowed = 16.0 * f64::EPSILON / short;
+                assert!((reach / circles[0].reach - 1.0).abs() <= allowed, "{short}, {k}: {reach}");
+                let cotangent = circle.cotangents[(3 - k) % 3];
+                assert!((cotangent / circles[0].cotangents.x - 1.0).abs() <= allowed, "{short}, {k}: {cotangent}");
+            }
+        }
+    }
+
+    #[test]
     fn shares_of_a_facet_sum_to_its_solid_angle_and_its_corner_is_as_far_from_all_sites() {
         for count in COUNTS {
             with_hull(count, |mut hull, sites| {
