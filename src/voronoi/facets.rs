@@ -18,7 +18,7 @@ use glam::DVec3;
 
 use super::diagram::Diagram;
 use super::hull::{ABOVE, BELOW, Facet, Hull, SPECIAL};
-use super::series::{arctangent, arctangent_of_root_over, arctangent_over};
+use super::series::arctangent_over;
 use super::sites::Sites;
 use crate::solid_angle::{Real, dispatch, dispatch::Kernel};
 
@@ -159,20 +159,6 @@ impl Circle {
             reach: x.length_squared(),
         }
     }
-}
-
-/// Solid angle and vector moment of the triangle of a site, the middle between it and the neighbour at `offset` from it, and
-/// `point`, which is as far from both; negative if that is on the right of the way to the neighbour.
-pub(super) fn triangle(site: DVec3, offset: DVec3, point: DVec3) -> (f64, DVec3) {
-    let square = offset.length_squared();
-    let of_middle = (1.0 - 0.25 * square).sqrt();
-    // |v| sin y and cos y, both times the cosine of θ/2; then tan(y/2) over |v|, and tan(θ/4) times |v|.
-    let (sine, cosine) = (point.dot(site.cross(offset)), point.dot(site));
-    let inverse = 1.0 / (square * (of_middle + cosine) * (1.0 + of_middle));
-    let tangent = sine * (1.0 + of_middle) * inverse;
-    let quarter = 0.5 * square * square * (of_middle + cosine) * inverse;
-    let arc = tangent * arctangent_of_root_over(square * tangent * tangent);
-    (2.0 * arctangent(quarter * tangent), -offset * arc)
 }
 
 /// Computes the corners of the facets `new` in the place of their planes, marks what is known of them, and adds to the

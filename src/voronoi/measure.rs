@@ -203,7 +203,7 @@ const THIN: f64 = 1.0 / 16.0;
 /// Whether a cell is so low that corners and horizons in doubles do not tell its solid angle: their error times its width is that
 /// of the solid angle.
 #[inline]
-pub(super) fn is_low(solid_angle: f64, width_squared: f64) -> bool {
+fn is_low(solid_angle: f64, width_squared: f64) -> bool {
     solid_angle * solid_angle < LOW * LOW * width_squared
 }
 

@@ -77,6 +77,7 @@ mod diagram;
 mod error;
 mod exact;
 mod facets;
+mod horizon;
 mod hull;
 mod incircle;
 mod insertion;
