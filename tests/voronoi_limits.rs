@@ -8,7 +8,8 @@ use proptest::prelude::*;
 use proptest::sample::select;
 use rand::RngExt;
 use rand_pcg::Pcg64;
-use steradian::{glam::DVec3, voronoi::HORIZON};
+use steradian::glam::DVec3;
+use steradian::voronoi::{Builder, HORIZON};
 
 mod bounds;
 #[path = "oracles/voronoi_cells.rs"]
@@ -44,9 +45,11 @@ enum Limit {
     Corner,
     /// Horizons anywhere through some cells.
     Cut,
+    /// Horizons at a small angle to an edge that they cross.
+    Shallow,
 }
 
-const LIMITS: [Limit; 9] = [
+const LIMITS: [Limit; 10] = [
     Limit::Obtuse,
     Limit::Wide,
     Limit::Close,
@@ -56,6 +59,7 @@ const LIMITS: [Limit; 9] = [
     Limit::Low,
     Limit::Corner,
     Limit::Cut,
+    Limit::Shallow,
 ];
 
 /// A direction and two others at right angles.
@@ -153,6 +157,12 @@ fn make(limit: Limit, rng: &mut Pcg64) -> (Vec<DVec3>, Option<DVec3>) {
             let towards = e * turn.cos() + f * turn.sin();
             pole = Some(towards.reject_from(frame.at(x, y)).normalize());
         }
+        Limit::Shallow => {
+            let (distance, (sine, cosine)) = (power(rng, -6.0, -2.0), power(rng, -14.0, -1.0).sin_cos());
+            sites = vec![frame.at(distance * sine, -distance * cosine), frame.at(-distance * sine, distance * cosine)];
+            sites.extend([frame.at(3.0 * distance, 0.1 * distance), frame.at(-3.0 * distance, -0.2 * distance)]);
+            pole = Some(f);
+        }
     }
     // All around, so that the cells end.
     sites.extend([(2.2, 0.1), (-1.3, 1.9), (-0.9, -1.7)].map(|(x, y)| frame.at(x, y)));
@@ -246,4 +256,48 @@ fn horizons_through_corners_leave_the_edges_that_they_must() {
         }
     }
     assert!(on_horizon > 500, "{on_horizon} corners on horizons");
+}
+
+/// Three sites that are close on a circle that is exact, and one across it: their corner is as far from all four.
+#[test]
+fn close_sites_on_a_wide_circle_have_the_corner_of_all() {
+    // Integers (x, y) of one length: 5·13·17·29·37·41 is a sum of two squares in 256 ways.
+    let square = 48_612_265i64;
+    let side = square.isqrt();
+    let root = |x: i64| (square - x * x).isqrt();
+    let xs = (-side..=side).filter(|&x| root(x) * root(x) == square - x * x);
+    let mut circle: Vec<[f64; 2]> =
+        xs.flat_map(|x| [[x as f64, root(x) as f64], [x as f64, -root(x) as f64]]).collect();
+    circle.sort_by(|[x, y], [s, t]| y.atan2(*x).total_cmp(&t.atan2(*s)));
+    assert_eq!(circle.len(), 256);
+    let far = [DVec3::new(1.0, 0.2, -1.0), DVec3::new(-0.9, 0.7, -1.0), DVec3::new(-0.1, -1.0, -1.0)];
+    for height in [9000.0, 12_000.0, 30_000.0] {
+        for k in 0..256 {
+            for across in [60, 128, 190] {
+                let places = [k, k + 1, k + 2, k + across].map(|k| circle[k % 256]);
+                let mut sites = places.map(|[x, y]| DVec3::new(x, y, height)).to_vec();
+                sites.extend(far);
+                if let Err(defect) = laws::diagram(&sites, None).validate() {
+                    panic!("{defect} for {sites:?}");
+                }
+            }
+        }
+    }
+}
+
+/// How many terms of a series a facet takes depends on those beside it, but on none of the diagram before.
+#[test]
+fn a_builder_of_wide_cells_gives_narrow_ones_the_bits_of_a_fresh_one() {
+    let mut rng = seeds::rng(4);
+    let mut used = Builder::new();
+    for round in 0..3000 {
+        let wide: Vec<DVec3> = (0..26).map(|_| sites::direction(&mut rng)).collect();
+        let frame = Frame::random(&mut rng);
+        let distance = power(&mut rng, -8.0, -2.0);
+        let count = 5 + 2 * (round % 10);
+        let narrow = around(&frame, count, distance, 1.0, &mut rng);
+        assert!(used.sphere(&wide).is_ok());
+        let (again, fresh) = (used.sphere(&narrow).expect("sites are valid"), laws::diagram(&narrow, None));
+        invariants::assert_same_bits(again, &fresh);
+    }
 }
