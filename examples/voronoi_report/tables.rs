@@ -31,7 +31,8 @@ fn table(out: &mut String, report: &Report, each: impl Fn(&Result, usize) -> Str
 
 pub fn section(report: &Report) -> String {
     let mut out = String::from(
-        "## `voronoi`\n\nRandom sites, each program in a process of its own, one thread, in turns; least CPU time of all rounds. \
+        "## `voronoi`\n\nRandom sites, each program in a process of its own, one thread, in turns; least CPU time of all rounds, \
+         of some diagrams in each process up to 10000 sites, and of one from there on. \
          This crate gives the whole diagram: vertices, neighbours, solid angles and vector moments. CGAL has no areas; the \
          second number is with circumcentres and fans in doubles on top. scipy: convex hull alone / diagram, sorted, with \
          areas. stripy has triangles only. d3-geo-voronoi: triangles / polygons with areas.\n\n\
