@@ -36,8 +36,8 @@ pub(super) fn crossing(normal: DVec3, pole: DVec3) -> Option<DVec3> {
     (square > STEEP * STEEP * of_normal && of_normal > SHORT * SHORT).then(|| cross / square.sqrt())
 }
 
-/// A site and the horizon.
-pub(super) struct View<'a> {
+/// The horizon, seen from a site.
+pub(super) struct Horizon<'a> {
     pole: &'a Ray,
     sites: Sites<'a>,
     site: u32,
@@ -60,7 +60,7 @@ pub(super) struct Cut {
     sine: f64,
 }
 
-impl<'a> View<'a> {
+impl<'a> Horizon<'a> {
     pub fn new(site: u32, pole: &'a Ray, sites: Sites<'a>) -> Self {
         let unit = sites.unit(site);
         let along = pole.unit.cross(unit).normalize_or_zero();

@@ -10,7 +10,7 @@ use super::HORIZON;
 use super::clip::{Cell, View};
 use super::diagram::{Diagram, NO_VERTEX, Record};
 use super::facets::{self, Batch};
-use super::horizon::{self, crossing};
+use super::horizon::{Horizon, crossing};
 use super::hull::{ABOVE, BELOW, Facet, Hull, SET, SPECIAL, Shape};
 use super::measure::{Measure, is_thin};
 use super::predicate::orientation;
@@ -247,7 +247,7 @@ impl Outlines {
     fn clipped_cell(&mut self, site: u32, walk: &mut Walk<'_>) -> Option<(f64, DVec3)> {
         let (pole, name) = (walk.pole?, walk.name(site) as usize);
         let (mut solid_angle, mut moment) = (walk.diagram.solid_angles[name], walk.diagram.vector_moments[name]);
-        let view = horizon::View::new(site, pole, walk.sites);
+        let horizon = Horizon::new(site, pole, walk.sites);
         let mut cuts = [None, None];
         for (k, start) in self.edges.iter().enumerate() {
             let end = &self.edges[if k + 1 == self.edges.len() { 0 } else { k + 1 }];
@@ -260,21 +260,21 @@ impl Outlines {
                     let (vertex, point) = self.shared.crossing(spoke, || crossing(normal(), pole.unit))?;
                     walk.diagram.push_edge(name, spoke >> 2);
                     walk.diagram.push_edge(HORIZON, vertex);
-                    cuts[0] = view.cut(neighbor, point);
+                    cuts[0] = horizon.cut(neighbor, point);
                 }
                 (BELOW, ABOVE) => {
                     let normal = || walk.sites.offset(neighbor, site);
                     let (vertex, point) = self.shared.crossing(walk.across(spoke), || crossing(normal(), pole.unit))?;
                     walk.diagram.push_edge(name, vertex);
-                    cuts[1] = view.cut(neighbor, point);
+                    cuts[1] = horizon.cut(neighbor, point);
                 }
                 _ => {}
             }
         }
         let [Some(exit), Some(entry)] = &cuts else { return None };
-        let horizon = view.triangle(exit, entry);
-        solid_angle += exit.solid_angle - entry.solid_angle + horizon.0;
-        moment += exit.vector_moment - entry.vector_moment + horizon.1;
+        let base = horizon.triangle(exit, entry);
+        solid_angle += exit.solid_angle - entry.solid_angle + base.0;
+        moment += exit.vector_moment - entry.vector_moment + base.1;
         let above = self.edges.iter().filter(|edge| edge.class == ABOVE);
         let reach = above.map(|edge| edge.reach.into()).fold(exit.reach.max(entry.reach), f64::max);
         (!is_thin(solid_angle, reach)).then_some((solid_angle, moment))
