@@ -290,7 +290,9 @@ impl Outlines {
         moment += pole * ((square * (1.0 - square)).sqrt() * (1.0 + arc_over_sine_less_one(square)));
         let above = self.edges.iter().filter(|edge| edge.class == ABOVE);
         let reach = above.map(|edge| edge.reach.into()).fold(at_exit.max(at_entry), f64::max);
-        let good = !is_thin(solid_angle, reach) && !is_low(solid_angle, 4.0 * reach);
+        let is_narrow = solid_angle < NARROW * NARROW;
+        // Only what is on the horizon has no relative accuracy: its length counts, not that of the cell.
+        let good = !is_narrow && !is_thin(solid_angle, reach) && !is_low(solid_angle, 4.0 * square);
         good.then_some((solid_angle, moment))
     }
 
@@ -422,6 +424,9 @@ const SHORT: f64 = 1.0 / (1u64 << 20) as f64;
 
 /// Cells reach up to this cosine from their site, if they are to be measured from there.
 const NEAR: f64 = 0.6;
+
+/// Clipped cells narrower than this need more than doubles on the horizon.
+const NARROW: f64 = 1.0 / 64.0;
 
 /// Of fewer sites the measures are in the cache whatever the order.
 const MANY: usize = 1 << 15;
