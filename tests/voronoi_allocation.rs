@@ -65,3 +65,19 @@ fn a_warm_builder_does_not_allocate() {
         assert_eq!(allocations(&mut pass), 0, "{kind:?}: a warm one does not");
     }
 }
+
+/// Of two buffers that change places with every cut, both must be long enough for all cells.
+#[test]
+fn a_builder_is_warm_after_one_diagram() {
+    for kind in sites::KINDS {
+        for round in 0..20 {
+            let mut rng = seeds::rng(round);
+            let sites = sites::make(kind, 40, &mut rng);
+            let pole = sites::direction(&mut rng);
+            let mut builder = Builder::new();
+            let mut build = || assert!(builder.hemisphere(&sites, pole).is_ok());
+            assert!(allocations(&mut build) > 0);
+            assert_eq!(allocations(&mut build), 0, "{kind:?}, {round}");
+        }
+    }
+}

@@ -2,7 +2,7 @@
 //! owns the cell, neighbours are mutual, V − E + F = 2, and a rotation turns the diagram.
 #![cfg(feature = "sphere")]
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use bounds::voronoi::bound;
 use rand::RngExt;
@@ -154,4 +154,26 @@ fn a_rotation_turns_the_diagram() {
             assert!(off <= bound("rotated", "*"), "{kind:?}: cell {i} was {a} {m} and is {b} {w}, {off:e} off");
         }
     }
+}
+
+/// Facets of so many sites are measured as cells meet them, and some cells have more corners than are walked with others.
+#[test]
+fn tens_of_thousands_of_sites_and_some_cells_of_many_corners_are_valid() {
+    let mut rng = seeds::rng(5);
+    let centres: Vec<DVec3> = (0..12).map(|_| sites::direction(&mut rng)).collect();
+    let mut sites = sites::make(Kind::Uniform, 34_000, &mut rng);
+    sites.retain(|site| centres.iter().all(|centre| site.distance(*centre) > 0.05));
+    for &centre in &centres {
+        let (across, along) = centre.any_orthonormal_pair();
+        sites.push(centre);
+        sites.extend((0..30).map(|k| {
+            let (sine, cosine) = (TAU * f64::from(k) / 30.0).sin_cos();
+            centre + 0.05 * (cosine * across + sine * along)
+        }));
+    }
+    assert!(sites.len() > 1 << 15, "{} sites", sites.len());
+    let whole = voronoi::sphere(&sites).expect("sites are valid");
+    assert!(whole.cells().filter(|cell| cell.neighbors().len() > 16).count() >= 8);
+    invariants::check(&sites, None);
+    invariants::check(&sites, Some(DVec3::new(0.48, 0.6, 0.64)));
 }

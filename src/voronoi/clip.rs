@@ -161,6 +161,9 @@ impl Cell {
     /// The cell of the edges `ids`, counter-clockwise, all of positive length: any number but two of one plane.
     pub fn set_outline(&mut self, view: &View<'_>, ids: &[u32]) {
         self.reset();
+        // A cut makes one edge more in the other buffer, and then they change places.
+        self.spare.reserve((ids.len() + 1).saturating_sub(self.spare.len()));
+        self.edges.reserve(ids.len() + 1);
         self.edges.extend(ids.iter().map(|&id| view.edge(id)));
         let n = self.edges.len();
         if n > 1 {

@@ -18,7 +18,7 @@ use glam::DVec3;
 
 use super::diagram::Diagram;
 use super::hull::{ABOVE, BELOW, Facet, Hull, SPECIAL};
-use super::series::{arctangent, arctangent_of_root_over, arctangent_over};
+use super::series::arctangent_over;
 use super::sites::Sites;
 use crate::solid_angle::{Real, dispatch, dispatch::Kernel};
 
@@ -161,20 +161,6 @@ impl Circle {
     }
 }
 
-/// Solid angle and vector moment of the triangle of a site, the middle between it and the neighbour at `offset` from it, and
-/// `point`, which is as far from both; negative if that is on the right of the way to the neighbour.
-pub(super) fn triangle(site: DVec3, offset: DVec3, point: DVec3) -> (f64, DVec3) {
-    let square = offset.length_squared();
-    let of_middle = (1.0 - 0.25 * square).sqrt();
-    // |v| sin y and cos y, both times the cosine of θ/2; then tan(y/2) over |v|, and tan(θ/4) times |v|.
-    let (sine, cosine) = (point.dot(site.cross(offset)), point.dot(site));
-    let inverse = 1.0 / (square * (of_middle + cosine) * (1.0 + of_middle));
-    let tangent = sine * (1.0 + of_middle) * inverse;
-    let quarter = 0.5 * square * square * (of_middle + cosine) * inverse;
-    let arc = tangent * arctangent_of_root_over(square * tangent * tangent);
-    (2.0 * arctangent(quarter * tangent), -offset * arc)
-}
-
 /// Computes the corners of the facets `new` in the place of their planes, marks what is known of them, and adds to the
 /// measures in `diagram` what those of class `ABOVE` add to the cells of their sites.
 pub(super) fn add_facets(
@@ -284,7 +270,7 @@ impl Batch {
     fn compute_shares_by<const ARC: usize, const AREA: usize>(&mut self, count: usize) {
         for k in 0..count {
             let cosine = self.cosine[k];
-            // Twice the solid angle of a triangle, and half of y v / |v|.
+            // The solid angle of a triangle, and half of y v / |v|.
             let share = |edge: usize| {
                 // sin² and cos of θ/2, and 1 + cos y times that, for cos R = cos y cos θ/2.
                 let square = 0.25 * self.squares[edge][k];
@@ -373,6 +359,27 @@ mod tests {
                     );
                     assert!(hull.facets.iter().map(|facet| facet.mark).eq(other.facets.iter().map(|facet| facet.mark)));
                 });
+            }
+        }
+    }
+
+    #[test]
+    fn long_triangles_are_the_same_from_each_of_their_sites() {
+        let at = |x: f64, y: f64| DVec3::new(x, y, 1.0).normalize();
+        for short in [0.3, 1e-2, 1e-4, 1e-6] {
+            let sites = [at(0.0, 0.0), at(0.3, 0.4), at(0.3 - 0.8 * short, 0.4 + 0.6 * short)];
+            let circles = [0, 1, 2].map(|k| {
+                let [a, b, c] = [0, 1, 2].map(|i| sites[(k + i) % 3]);
+                Circle::new(a, b - a, c - a, c - b)
+            });
+            for (k, circle) in circles.iter().enumerate() {
+                let (square, reach) = (circle.n.length_squared() / circle.product, circle.reach);
+                assert!(square > 0.5, "{short}, {k}: the sine of the largest angle is the root of {square}");
+                // Offsets of sites are those of doubles.
+                let allowed = 16.0 * f64::EPSILON / short;
+                assert!((reach / circles[0].reach - 1.0).abs() <= allowed, "{short}, {k}: {reach}");
+                let cotangent = circle.cotangents[(3 - k) % 3];
+                assert!((cotangent / circles[0].cotangents.x - 1.0).abs() <= allowed, "{short}, {k}: {cotangent}");
             }
         }
     }

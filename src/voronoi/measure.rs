@@ -45,8 +45,7 @@ const SURE: f64 = 1.0 / 64.0;
 /// Corners of smaller sine than this are uncertain by 2⁻⁵⁵ even in twofold numbers of 2⁻⁹⁵.
 const BLUNT: f64 = 1.0 / (1u64 << 40) as f64;
 
-/// A cell narrower than this needs more than doubles in the differences of its corners. These are right to 2⁻⁵¹, over this and
-/// over `THIN` 2·10⁻¹³ if all errors met; 2·10⁻¹⁴ is the worst of all that was searched.
+/// A cell narrower than this needs more than doubles in the differences of its corners.
 const NARROW: f64 = 1.0 / 16.0;
 
 /// A fan keeps its relative accuracy with denominators from here on.
@@ -103,7 +102,8 @@ impl Measure {
         let first = self.corners[0];
         if self.corners.iter().all(|corner| corner.unit.dot(first.unit) > 0.5) {
             let mut solid_angle = fan_solid_angle(&self.corners);
-            if is_thin(solid_angle, width_squared(&self.corners)) {
+            let width_squared = width_squared(&self.corners);
+            if is_thin(solid_angle, width_squared) || is_low(solid_angle, width_squared) {
                 self.set_twofold_corners(view, edges);
                 solid_angle = self.twofold_solid_angle().unwrap_or(solid_angle);
             }
@@ -199,6 +199,16 @@ pub(super) fn is_thin(solid_angle: f64, width_squared: f64) -> bool {
 
 /// Solid angle over the square of the width: relative errors are 1/`THIN` times those of a square.
 const THIN: f64 = 1.0 / 16.0;
+
+/// Whether a cell is so low that corners and horizons in doubles do not tell its solid angle: their error times its width is that
+/// of the solid angle.
+#[inline]
+fn is_low(solid_angle: f64, width_squared: f64) -> bool {
+    solid_angle * solid_angle < LOW * LOW * width_squared
+}
+
+/// Solid angle over the width: corners are right to 2⁻⁵¹, over this 2·10⁻¹⁴ if all errors met.
+const LOW: f64 = 1.0 / 48.0;
 
 /// Square of the largest distance from the first corner.
 fn width_squared(corners: &[Corner]) -> f64 {

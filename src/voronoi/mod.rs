@@ -57,9 +57,9 @@
 //!
 //! Sites are numbered along the curve. Vertices take the place of the planes of the hull, in whose order they are, so that a
 //! million sites take 290 bytes each, results included.
-//! Measures included, a thousand sites take 0.3 to 0.4 µs each and a million 0.9 to 1.3 µs, up to 2.6 times that on grids of
-//! latitudes and longitudes, whose circles integers decide. Sites almost on one circle have sharp corners and thin cells
-//! only, which cost about 6 µs a site: docs/performance.md.
+//! Measures included, a thousand sites take 0.3 µs each and a million 0.7 to 0.8 µs, up to twice that on grids of latitudes and
+//! longitudes, with four sites on a circle everywhere. Sites almost on one circle have sharp corners and thin cells only, which
+//! cost about 6 µs a site: docs/performance.md.
 //!
 //! # Not here
 //!
@@ -77,6 +77,7 @@ mod diagram;
 mod error;
 mod exact;
 mod facets;
+mod horizon;
 mod hull;
 mod incircle;
 mod insertion;

@@ -10,11 +10,11 @@ use super::HORIZON;
 use super::clip::{Cell, View};
 use super::diagram::{Diagram, NO_VERTEX, Record};
 use super::facets::{self, Batch};
+use super::horizon::{Horizon, crossing};
 use super::hull::{ABOVE, BELOW, Facet, Hull, SET, SPECIAL, Shape};
 use super::measure::{Measure, is_thin};
 use super::predicate::orientation;
 use super::ray::Ray;
-use super::series::{arc_over_sine_less_one, arctangent};
 use super::shared::Shared;
 use super::sites::Sites;
 use super::spokes::{Known, STEPS, Spoke, Spokes, facet, neighbor};
@@ -133,9 +133,7 @@ impl Outlines {
                 self.add_facets(walk);
             }
             for cell in 0..count {
-                let start = walk.diagram.neighbors.len();
                 if !self.add_ordinary_cell(cell, walk) {
-                    walk.diagram.drop_outline(start);
                     self.add_uneven_cell(cell, walk);
                 }
             }
@@ -247,53 +245,39 @@ impl Outlines {
     ///
     /// Facets have measured it but for the parts of its edges beyond the middle to the horizon, and that itself.
     fn clipped_cell(&mut self, site: u32, walk: &mut Walk<'_>) -> Option<(f64, DVec3)> {
-        let (pole, unit, name) = (walk.pole?.unit, walk.sites.unit(site), walk.name(site) as usize);
+        let (pole, name) = (walk.pole?, walk.name(site) as usize);
         let (mut solid_angle, mut moment) = (walk.diagram.solid_angles[name], walk.diagram.vector_moments[name]);
-        let mut ends = [unit; 2];
+        let horizon = Horizon::new(site, pole, walk.sites);
+        let mut cuts = [None, None];
         for (k, start) in self.edges.iter().enumerate() {
             let end = &self.edges[if k + 1 == self.edges.len() { 0 } else { k + 1 }];
             let &Edge { spoke, neighbor, .. } = start;
             let name = walk.name(neighbor);
-            let beyond = match (start.class, end.class) {
-                (ABOVE, ABOVE) if start.is_flat => continue,
-                (ABOVE, ABOVE) => {
-                    walk.diagram.push_edge(name, spoke >> 2);
-                    continue;
-                }
+            match (start.class, end.class) {
+                (ABOVE, ABOVE) if !start.is_flat => walk.diagram.push_edge(name, spoke >> 2),
                 (ABOVE, BELOW) => {
                     let normal = || walk.sites.offset(site, neighbor);
-                    let (vertex, exit) = self.shared.crossing(spoke, || crossing(normal(), pole))?;
+                    let (vertex, point) = self.shared.crossing(spoke, || crossing(normal(), pole.unit))?;
                     walk.diagram.push_edge(name, spoke >> 2);
                     walk.diagram.push_edge(HORIZON, vertex);
-                    ends[0] = exit;
-                    facets::triangle(unit, walk.sites.offset(neighbor, site), exit)
+                    cuts[0] = horizon.cut(neighbor, point);
                 }
                 (BELOW, ABOVE) => {
                     let normal = || walk.sites.offset(neighbor, site);
-                    let (vertex, entry) = self.shared.crossing(walk.across(spoke), || crossing(normal(), pole))?;
+                    let (vertex, point) = self.shared.crossing(walk.across(spoke), || crossing(normal(), pole.unit))?;
                     walk.diagram.push_edge(name, vertex);
-                    ends[1] = entry;
-                    let (solid_angle, moment) = facets::triangle(unit, walk.sites.offset(neighbor, site), entry);
-                    (-solid_angle, -moment)
+                    cuts[1] = horizon.cut(neighbor, point);
                 }
-                _ => continue,
-            };
-            solid_angle += beyond.0;
-            moment += beyond.1;
+                _ => {}
+            }
         }
-        let [exit, entry] = ends;
-        if exit.dot(unit).min(entry.dot(unit)) <= NEAR {
-            return None;
-        }
-        let (d, e, chord) = (exit - unit, entry - unit, entry - exit);
-        let (at_exit, at_entry, square) = (d.length_squared(), e.length_squared(), 0.25 * chord.length_squared());
-        let cosines = 4.0 - 0.5 * (at_exit + at_entry) - 2.0 * square;
-        solid_angle += 2.0 * arctangent(unit.dot(d.cross(e)) / cosines);
-        moment += pole * ((square * (1.0 - square)).sqrt() * (1.0 + arc_over_sine_less_one(square)));
+        let [Some(exit), Some(entry)] = &cuts else { return None };
+        let base = horizon.triangle(exit, entry);
+        solid_angle += exit.solid_angle - entry.solid_angle + base.0;
+        moment += exit.vector_moment - entry.vector_moment + base.1;
         let above = self.edges.iter().filter(|edge| edge.class == ABOVE);
-        let reach = above.map(|edge| edge.reach.into()).fold(at_exit.max(at_entry), f64::max);
-        let good = solid_angle >= NARROW * NARROW && !is_thin(solid_angle, reach);
-        good.then_some((solid_angle, moment))
+        let reach = above.map(|edge| edge.reach.into()).fold(exit.reach.max(entry.reach), f64::max);
+        (!is_thin(solid_angle, reach)).then_some((solid_angle, moment))
     }
 
     /// Adds the cell of `site` with the edges `around`.
@@ -406,27 +390,6 @@ fn set_owners(twins: &[(u32, u32)], sites: Sites<'_>, diagram: &mut Diagram) {
         diagram.owners[sites.index(site)] = owner;
     }
 }
-
-/// Where a bisector goes below the horizon, with the site on its left `normal` from that on its right; the same bits for
-/// both cells. None if it is too close to the horizon all along for doubles.
-#[inline]
-fn crossing(normal: DVec3, pole: DVec3) -> Option<DVec3> {
-    let cross = normal.cross(pole);
-    let (square, of_normal) = (cross.length_squared(), normal.length_squared());
-    (square > STEEP * STEEP * of_normal && of_normal > SHORT * SHORT).then(|| cross / square.sqrt())
-}
-
-/// Bisectors at a smaller sine to the horizon meet it in a corner for twofold numbers.
-const STEEP: f64 = 0.25;
-
-/// So do bisectors of sites closer than 2⁻²⁰.
-const SHORT: f64 = 1.0 / (1u64 << 20) as f64;
-
-/// Cells reach up to this cosine from their site, if they are to be measured from there.
-const NEAR: f64 = 0.6;
-
-/// Clipped cells narrower than this need more than doubles on the horizon.
-const NARROW: f64 = 1.0 / 64.0;
 
 /// Of fewer sites the measures are in the cache whatever the order.
 const MANY: usize = 1 << 15;

@@ -11,6 +11,7 @@ const CELLS: usize = 16;
 /// Most corners of a cell that is walked with others; cells of more are few.
 pub(super) const STEPS: usize = 16;
 
+/// So far on are the cells whose results are fetched ahead.
 const AHEAD: usize = 48;
 
 /// A corner of a cell, and the edge that starts there: four times the facet, plus the index of the edge in it.
