@@ -1,7 +1,7 @@
 //! The kernel on every copy, and the measures of single facets against polygons.
 
-use crate::voronoi::order;
 use super::*;
+use crate::voronoi::order;
 
 /// Calls `visit` with the hull of `count` sites around the whole sphere, by chance.
 fn with_hull(count: usize, visit: impl FnOnce(Hull, Sites<'_>)) {
