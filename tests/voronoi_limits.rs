@@ -301,3 +301,24 @@ fn a_builder_of_wide_cells_gives_narrow_ones_the_bits_of_a_fresh_one() {
         invariants::assert_same_bits(again, &fresh);
     }
 }
+
+/// Found by fuzzing: holes of 63 and 64 facets, when there was room for 64 edges.
+#[test]
+fn a_site_takes_away_any_number_of_facets() {
+    let mut rng = seeds::rng(4);
+    let mut most = 0;
+    for count in 40..150 {
+        let frame = Frame::random(&mut rng);
+        let at = |k: usize| {
+            let (sine, cosine) = (TAU * k as f64 / count as f64).sin_cos();
+            frame.at(0.3 * cosine, 0.3 * sine)
+        };
+        let mut given: Vec<DVec3> = (0..count).map(|k| at(k) * rng.random_range(0.5..2.0)).collect();
+        // In the middle of a circle there is one that comes later than some of that.
+        given.push(frame.at(0.0, 0.0));
+        let diagram = steradian::voronoi::sphere(&given).expect("sites are valid");
+        assert_eq!(diagram.validate(), Ok(()));
+        most = most.max(diagram.cell(count).neighbors().len());
+    }
+    assert_eq!(most, 149);
+}

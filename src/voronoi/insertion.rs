@@ -208,6 +208,8 @@ impl Hull {
         if room < 8 {
             return None;
         }
+        // So that what n facets leave on the rim and open, n + 2, has a place too.
+        let most = room - ROOM;
         let (mut found, mut closed, mut left) = (1, 0, 2);
         hole[0] = facet;
         let [mut across, b, c] = facets[facet as usize].across;
@@ -217,11 +219,11 @@ impl Hull {
             let excess = planes[(across >> 2) as usize].dot(point) - 1.0;
             let is_sure = excess.abs() > f64::from(there.error);
             if if is_sure { excess > 0.0 } else { points.is_beyond_circle(there, site, closed, flat) } {
-                *hole.get_mut(found)? = across >> 2;
+                *hole[..most].get_mut(found)? = across >> 2;
                 found += 1;
                 let (after, before) = others(across & 3);
                 across = there.across[after];
-                *open.get_mut(left)? = there.across[before];
+                open[left] = there.across[before];
                 left += 1;
             } else {
                 rim[closed] = across;
@@ -232,9 +234,6 @@ impl Hull {
                 left -= 1;
                 across = open[left];
             }
-        }
-        if found + ROOM > room {
-            return None;
         }
         let end = facets.len() as u32;
         (hole[found], hole[found + 1], hole[found + 2]) = (end, end + 1, hole[0]);
