@@ -39,7 +39,7 @@ enum Limit {
     Oblique,
     /// Four sites on a circle, but for some roundings, three of which are close.
     Round,
-    /// Strips along the horizon, as low as a 2000th of their length.
+    /// Strips along the horizon, as low as a 256th of their reach.
     Low,
     /// Horizons through a corner, or 10⁻¹⁷ to 10⁻⁹ beside it.
     Corner,
@@ -135,7 +135,8 @@ fn make(limit: Limit, rng: &mut Pcg64) -> (Vec<DVec3>, Option<DVec3>) {
             sites = places.map(|(arc, turn)| frame.at(arc * turn.cos(), arc * turn.sin())).to_vec();
         }
         Limit::Low => {
-            let (reach, height) = (power(rng, -5.0, -2.0), power(rng, -10.0, -6.0));
+            let reach = power(rng, -19.0, -2.0);
+            let height = reach * power(rng, -8.0, -1.0);
             let site = height * rng.random_range(-2.0..0.9);
             sites = [(0.0, site), (0.0, 2.0 * height - site), (2.0 * reach, site), (-2.0 * reach, site), (0.0, -reach)]
                 .map(|(x, y)| frame.at(x, y))
@@ -150,7 +151,7 @@ fn make(limit: Limit, rng: &mut Pcg64) -> (Vec<DVec3>, Option<DVec3>) {
             pole = Some(beside + corner * (sites::direction(rng).x * 0.1f64.powi(rng.random_range(9..18))));
         }
         Limit::Cut => {
-            let distance = power(rng, -5.0, -1.0);
+            let distance = power(rng, -20.0, -1.0);
             sites.extend(around(&frame, count, distance, 1.0, rng));
             let (turn, height) = (rng.random_range(0.0..TAU), distance * rng.random_range(-0.6..0.6));
             let (x, y) = (height * turn.cos(), height * turn.sin());
@@ -158,7 +159,7 @@ fn make(limit: Limit, rng: &mut Pcg64) -> (Vec<DVec3>, Option<DVec3>) {
             pole = Some(towards.reject_from(frame.at(x, y)).normalize());
         }
         Limit::Shallow => {
-            let (distance, (sine, cosine)) = (power(rng, -6.0, -2.0), power(rng, -14.0, -1.0).sin_cos());
+            let (distance, (sine, cosine)) = (power(rng, -20.0, -2.0), power(rng, -14.0, -1.0).sin_cos());
             sites = vec![frame.at(distance * sine, -distance * cosine), frame.at(-distance * sine, distance * cosine)];
             sites.extend([frame.at(3.0 * distance, 0.1 * distance), frame.at(-3.0 * distance, -0.2 * distance)]);
             pole = Some(f);
