@@ -147,7 +147,7 @@ impl Diagram {
     /// The index by which cells name the one of this site.
     #[inline(always)]
     pub(super) fn name(&self, index: usize) -> u32 {
-        self.owners.get(index).copied().unwrap_or(index as u32)
+        name(&self.owners, index)
     }
 
     /// Adds an edge and the corner at its start to the outline.
@@ -164,6 +164,12 @@ impl Diagram {
     }
 }
 
+/// The owner of a site's cell, of those of all sites or of nothing.
+#[inline(always)]
+pub(super) fn name(owners: &[u32], index: usize) -> u32 {
+    owners.get(index).copied().unwrap_or(index as u32)
+}
+
 impl<'a> Cell<'a> {
     /// Index of the site.
     pub fn site(&self) -> usize {
@@ -172,7 +178,7 @@ impl<'a> Cell<'a> {
 
     /// Lowest index of a site with the same direction: the one whose cell is not empty. Mostly `site()` itself.
     pub fn owner(&self) -> usize {
-        self.diagram.owners.get(self.index).map_or(self.index, |&owner| owner as usize)
+        self.diagram.name(self.index) as usize
     }
 
     /// Direction of the site, a unit vector.

@@ -16,7 +16,7 @@
 
 use glam::DVec3;
 
-use super::diagram::Diagram;
+use super::diagram::{Diagram, name};
 use super::hull::{ABOVE, BELOW, Facet, Hull, SPECIAL};
 use super::series::arctangent_over;
 use super::sites::Sites;
@@ -300,8 +300,7 @@ impl Batch {
             let facet = &mut facets[f as usize];
             planes[f as usize] = at(&self.corner, lane);
             for k in 0..3 {
-                let index = sites.index(facet.sites[k]);
-                let name = if owners.is_empty() { index } else { owners[index] as usize };
+                let name = name(owners, sites.index(facet.sites[k])) as usize;
                 solid_angles[name] += self.solid_angles[k][lane];
                 vector_moments[name] += at(&self.moments[k], lane);
             }

@@ -229,8 +229,15 @@ pub(super) fn next(k: u32) -> usize {
     usize::from(NEXT[(k & 3) as usize])
 }
 
-/// By an index in a facet, the one after it.
+/// The index before `k` of the three in a facet.
+#[inline(always)]
+pub(super) fn previous(k: u32) -> usize {
+    usize::from(PREVIOUS[(k & 3) as usize])
+}
+
+/// By an index in a facet, the one after it and the one before.
 const NEXT: [u8; 4] = [1, 2, 0, 0];
+const PREVIOUS: [u8; 4] = [2, 0, 1, 0];
 
 /// About a centre closer to the origin, points are so large that rests of 24 bits do.
 const WIDE: f64 = 0.9;
@@ -240,6 +247,8 @@ mod tests {
     use super::super::incircle::in_circle_of_sites;
     use super::*;
     use core::f64::consts::TAU;
+    use rand::{RngExt, SeedableRng};
+    use rand_pcg::Pcg64;
 
     /// Calls `visit` with the hull of some sites.
     fn with_hull(hull: &mut Hull, given: &[DVec3], visit: impl FnOnce(&Hull, Sites<'_>, Shape)) {
@@ -248,12 +257,6 @@ mod tests {
         let sites = Sites::new(given, &keys, &mut units, &mut rests);
         let shape = hull.build(sites).unwrap();
         visit(hull, sites, shape);
-    }
-
-    /// Numbers from −1 to 1, by chance.
-    fn random(seed: &mut u64) -> f64 {
-        *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (*seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
     fn lattice(half: i32) -> Vec<DVec3> {
@@ -300,9 +303,9 @@ mod tests {
     }
 
     fn scattered(count: usize, scale: f64) -> Vec<DVec3> {
-        let mut seed = count as u64;
-        let near = |seed: &mut u64| DVec3::from_array([0, 1, 2].map(|_| random(seed)));
-        (0..count).map(|_| near(&mut seed) * scale + (1.0 - scale) * DVec3::new(0.6, 0.0, 0.8)).collect()
+        let mut rng = Pcg64::seed_from_u64(count as u64);
+        let mut near = || DVec3::from_array([0, 1, 2].map(|_| rng.random_range(-1.0..1.0)));
+        (0..count).map(|_| near() * scale + (1.0 - scale) * DVec3::new(0.6, 0.0, 0.8)).collect()
     }
 
     /// The sets of sites, and whether some edge must be flat.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::hull::{Facet, Hull, next};
+use super::hull::{Facet, Hull, next, previous};
 use super::incircle::{in_circle_of_sites, nearer};
 use super::sites::Sites;
 
@@ -295,13 +295,10 @@ impl Buffers {
 /// Places behind the facets of a hole that the new facets and the search take.
 const ROOM: usize = 4;
 
-/// By an index in a facet, the one before it.
-const BEFORE: [u8; 4] = [2, 0, 1, 0];
-
 /// The two indices after `k`.
 #[inline(always)]
 fn others(k: u32) -> (usize, usize) {
-    (next(k), usize::from(BEFORE[(k & 3) as usize]))
+    (next(k), previous(k))
 }
 
 /// The plane w·x = 1 through `c` and the points at `d` and `e` from it, counter-clockwise seen from outside, and the

@@ -88,8 +88,7 @@ impl<'a> Sites<'a> {
     /// The same to twice the precision, each component right to 2⁻⁷⁶.
     #[inline]
     pub fn twofold_offset(&self, site: u32, from: u32) -> Twofold3 {
-        let [a, b] = [site, from].map(|site| DVec3::from_array(self.rests[site as usize].map(f64::from)));
-        Twofold3::from_difference(self.unit(site), self.unit(from)).plus_small(a - b)
+        Twofold3::from_difference(self.unit(site), self.unit(from)).plus_small(self.rest(site) - self.rest(from))
     }
 }
 

@@ -3,7 +3,7 @@
 //! # Model
 //! A step around a site waits for the one before, but not for those around other sites, so that these are taken in turns.
 
-use super::hull::{ABOVE, BELOW, FLATS, Facet, SPECIAL, next};
+use super::hull::{ABOVE, BELOW, FLATS, Facet, SPECIAL, next, previous};
 
 /// Cells at a time.
 const CELLS: usize = 16;
@@ -45,14 +45,11 @@ pub(super) struct Spokes {
 /// For sites without a cell.
 const NONE: u32 = u32::MAX;
 
-/// The index of a facet's three before one.
-const BEFORE: [u8; 4] = [2, 0, 1, 0];
-
 /// The next spoke of the same cell.
 #[inline(always)]
 fn turn(facet: &Facet, spoke: Spoke) -> Spoke {
     let across = facet.across[(spoke & 3) as usize];
-    (across & !3) + u32::from(BEFORE[(across & 3) as usize])
+    (across & !3) + previous(across) as u32
 }
 
 impl Spokes {
