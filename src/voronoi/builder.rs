@@ -51,7 +51,19 @@ impl Builder {
     ///
     /// Those of [`sphere`](super::sphere).
     pub fn sphere(&mut self, sites: &[DVec3]) -> Result<&Diagram, VoronoiError> {
-        self.build(sites, None)?;
+        self.build::<true>(sites, None)?;
+        Ok(&self.diagram)
+    }
+
+    /// Measures.
+    pub fn measure_sphere(&mut self, sites: &[DVec3]) -> Result<&Diagram, VoronoiError> {
+        self.build::<false>(sites, None)?;
+        Ok(&self.diagram)
+    }
+
+    /// Measures.
+    pub fn measure_hemisphere(&mut self, sites: &[DVec3], pole: DVec3) -> Result<&Diagram, VoronoiError> {
+        self.build::<false>(sites, Some(Ray::new(pole)))?;
         Ok(&self.diagram)
     }
 
@@ -67,7 +79,7 @@ impl Builder {
         if pole == DVec3::ZERO {
             return Err(VoronoiError::ZeroPole);
         }
-        self.build(sites, Some(Ray::new(pole)))?;
+        self.build::<true>(sites, Some(Ray::new(pole)))?;
         Ok(&self.diagram)
     }
 
@@ -75,7 +87,7 @@ impl Builder {
         self.diagram
     }
 
-    fn build(&mut self, given: &[DVec3], pole: Option<Ray>) -> Result<(), VoronoiError> {
+    fn build<const OUTLINES: bool>(&mut self, given: &[DVec3], pole: Option<Ray>) -> Result<(), VoronoiError> {
         check(given)?;
         let Self { keys, rests, hull, outlines, diagram } = self;
         order::sort(given, keys);
@@ -83,7 +95,7 @@ impl Builder {
         let sites = Sites::new(given, keys, &mut directions, rests);
         // The planes of the hull become the corners of the diagram, in place.
         core::mem::swap(&mut hull.planes, &mut diagram.vertices);
-        let result = hull.build(sites).map(|shape| outlines.build(shape, hull, sites, pole, diagram));
+        let result = hull.build(sites).map(|shape| if OUTLINES { outlines.build(shape, hull, sites, pole, diagram) } else { outlines.measure(shape, hull, sites, pole, diagram) });
         core::mem::swap(&mut hull.planes, &mut diagram.vertices);
         diagram.directions = directions;
         if result.is_err() {

@@ -129,7 +129,7 @@ impl Diagram {
         &self.vertices
     }
 
-    /// Makes room for the cells of `len` sites, all empty.
+    /// All measures of the cells of `len` sites are zero, and there are no outlines.
     pub(super) fn reset(&mut self, pole: Option<DVec3>, len: usize) {
         self.pole = pole;
         self.solid_angles.clear();
@@ -137,10 +137,14 @@ impl Diagram {
         self.vector_moments.clear();
         self.vector_moments.resize(len, DVec3::ZERO);
         self.records.clear();
-        self.records.resize(len, Record::default());
         self.neighbors.clear();
-        self.neighbors.reserve(6 * len);
         self.vertex_indices.clear();
+    }
+
+    /// Makes room for the outlines of the cells of `len` sites, all empty.
+    pub(super) fn make_outlines(&mut self, len: usize) {
+        self.records.resize(len, Record::default());
+        self.neighbors.reserve(6 * len);
         self.vertex_indices.reserve(6 * len);
     }
 

@@ -16,10 +16,10 @@
 
 use glam::DVec3;
 
-use super::diagram::{Diagram, name};
-use super::hull::{ABOVE, BELOW, Facet, Hull, SPECIAL};
+use super::hull::{ABOVE, BELOW, Facet, Hull, SPECIAL, next};
 use super::series::arctangent_over;
 use super::sites::Sites;
+use super::spokes::Spoke;
 use crate::solid_angle::{Real, dispatch, dispatch::Kernel};
 
 /// Facets whose largest angle has a smaller sine than this are not for doubles.
@@ -161,34 +161,68 @@ impl Circle {
     }
 }
 
-/// Computes the corners of the facets `new` in the place of their planes, marks what is known of them, and adds to the
-/// measures in `diagram` what those of class `ABOVE` add to the cells of their sites.
+/// What a facet adds to the cell of one of its sites.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Share {
+    /// The corner in the cell.
+    pub spoke: Spoke,
+    pub solid_angle: f64,
+    pub moment: DVec3,
+    /// sin² of the corner's distance from the site, infinite if doubles are not enough or it is below the horizon.
+    pub reach: f32,
+    /// The square of the facet's shortest edge.
+    pub shortest: f32,
+}
+
+/// The cells that facets add to.
+pub(super) trait Shares {
+    fn add(&mut self, site: u32, share: Share);
+}
+
+/// Computes the corners of the facets `new` in the place of their planes, marks what is known of them, and adds to `shares`
+/// what those of class `ABOVE` add to the cells of their sites; nothing for others.
 pub(super) fn add_facets(
     batch: &mut Batch,
     new: &[u32],
     hull: &mut Hull,
     sites: Sites<'_>,
     pole: Option<DVec3>,
-    diagram: &mut Diagram,
+    shares: &mut impl Shares,
 ) {
-    dispatch::run(AddFacets { batch, new, hull, sites, pole, diagram });
+    dispatch::run(AddFacets { batch, new, hull, sites, pole, shares });
 }
 
-struct AddFacets<'a> {
+/// The same for all facets of the hull, in the order in which they lie.
+pub(super) fn add_all_facets(
+    batch: &mut Batch,
+    hull: &mut Hull,
+    sites: Sites<'_>,
+    pole: Option<DVec3>,
+    shares: &mut impl Shares,
+) {
+    let mut left = 0..hull.facets.len() as u32;
+    while !left.is_empty() {
+        let mut new = [0; BATCH];
+        let count = new.iter_mut().zip(&mut left).map(|(place, f)| *place = f).count();
+        add_facets(batch, &new[..count], hull, sites, pole, shares);
+    }
+}
+
+struct AddFacets<'a, S> {
     batch: &'a mut Batch,
     new: &'a [u32],
     hull: &'a mut Hull,
     sites: Sites<'a>,
     pole: Option<DVec3>,
-    diagram: &'a mut Diagram,
+    shares: &'a mut S,
 }
 
-impl Kernel for AddFacets<'_> {
+impl<S: Shares> Kernel for AddFacets<'_, S> {
     type Output = ();
 
     #[inline(always)]
     fn run<T: Real>(self) {
-        let Self { batch, new, hull, sites, pole, diagram } = self;
+        let Self { batch, new, hull, sites, pole, shares } = self;
         for new in new.chunks(BATCH) {
             batch.load(new, &hull.facets, sites);
             let count = new.len().next_multiple_of(4).min(BATCH);
@@ -198,7 +232,7 @@ impl Kernel for AddFacets<'_> {
             }
             batch.reach[new.len()..count].fill(0.0);
             batch.compute_shares(count);
-            batch.store(new, &mut hull.facets, &mut hull.planes, sites, diagram);
+            batch.store(new, &mut hull.facets, &mut hull.planes, shares);
         }
     }
 }
@@ -293,18 +327,25 @@ impl Batch {
     }
 
     #[inline(always)]
-    fn store(&self, new: &[u32], facets: &mut [Facet], planes: &mut [DVec3], sites: Sites<'_>, diagram: &mut Diagram) {
-        let Diagram { solid_angles, vector_moments, owners, .. } = diagram;
-        let vector_moments = &mut vector_moments[..solid_angles.len()];
+    fn store(&self, new: &[u32], facets: &mut [Facet], planes: &mut [DVec3], shares: &mut impl Shares) {
         for (lane, &f) in (0..BATCH).zip(new) {
             let facet = &mut facets[f as usize];
             planes[f as usize] = at(&self.corner, lane);
+            let (class, shortest) = (self.class[lane] as u32, self.shortest[lane]);
+            let reach = if class == ABOVE { self.reach[lane] as f32 } else { f32::INFINITY };
             for k in 0..3 {
-                let name = name(owners, sites.index(facet.sites[k])) as usize;
-                solid_angles[name] += self.solid_angles[k][lane];
-                vector_moments[name] += at(&self.moments[k], lane);
+                shares.add(
+                    facet.sites[k],
+                    Share {
+                        spoke: 4 * f + next(k as u32) as u32,
+                        solid_angle: self.solid_angles[k][lane],
+                        moment: at(&self.moments[k], lane),
+                        reach,
+                        shortest: shortest as f32,
+                    },
+                );
             }
-            facet.set_corner(self.class[lane] as u32, self.reach[lane], self.shortest[lane]);
+            facet.set_corner(class, self.reach[lane], shortest);
         }
     }
 }

@@ -93,6 +93,7 @@ mod shared;
 mod sites;
 mod spokes;
 mod start;
+mod tally;
 mod twofold;
 mod validate;
 

@@ -9,7 +9,7 @@ use glam::DVec3;
 use super::HORIZON;
 use super::clip::{Cell, View};
 use super::diagram::{Diagram, NO_VERTEX, Record};
-use super::facets::{self, Batch};
+use super::facets::{self, Batch, Share, Shares};
 use super::horizon::{Horizon, crossing};
 use super::hull::{ABOVE, BELOW, Facet, Hull, SET, SPECIAL, Shape};
 use super::measure::{Measure, is_thin};
@@ -17,6 +17,7 @@ use super::predicate::orientation;
 use super::ray::Ray;
 use super::shared::Shared;
 use super::sites::Sites;
+use super::tally::Tallies;
 use super::spokes::{Known, STEPS, Spoke, Spokes, facet, neighbor};
 use crate::solid_angle::dispatch::prefetch;
 
@@ -35,6 +36,7 @@ pub(super) struct Outlines {
     rays: Vec<Ray>,
     cell: Cell,
     measure: Measure,
+    tallies: Tallies,
 }
 
 /// An edge of a cell that is cut.
@@ -68,10 +70,64 @@ struct Walk<'a> {
     diagram: &'a mut Diagram,
 }
 
+/// Facets add to the results of a diagram.
+pub(super) struct ByName<'a> {
+    pub sites: Sites<'a>,
+    pub diagram: &'a mut Diagram,
+}
+
+impl Shares for ByName<'_> {
+    #[inline(always)]
+    fn add(&mut self, site: u32, share: Share) {
+        let name = self.diagram.name(self.sites.index(site)) as usize;
+        self.diagram.solid_angles[name] += share.solid_angle;
+        self.diagram.vector_moments[name] += share.moment;
+    }
+}
+
 impl Outlines {
     /// Sets all of `diagram` but its directions; its vertices are in the place of the hull's planes.
     pub fn build(&mut self, shape: Shape, hull: &mut Hull, sites: Sites<'_>, pole: Option<Ray>, diagram: &mut Diagram) {
+        self.start::<true>(shape, hull, sites, pole.as_ref(), diagram);
+        let mut walk = Walk { hull, sites, pole: pole.as_ref(), diagram };
+        match shape {
+            Shape::Solid => self.add_cells(&mut walk),
+            _ => self.add_cells_of_circle(shape, &mut walk),
+        }
+        if pole.is_some() || self.shared.has_flats() {
+            self.shared.renumber(&hull.facets, &mut hull.planes, &mut diagram.vertex_indices);
+        }
+    }
+
+    /// Sets the measures of all cells in `diagram`, whose outlines are of no use then.
+    pub fn measure(
+        &mut self,
+        shape: Shape,
+        hull: &mut Hull,
+        sites: Sites<'_>,
+        pole: Option<Ray>,
+        diagram: &mut Diagram,
+    ) {
+        self.start::<false>(shape, hull, sites, pole.as_ref(), diagram);
+        let mut walk = Walk { hull, sites, pole: pole.as_ref(), diagram };
+        match shape {
+            Shape::Solid => self.measure_cells(&mut walk),
+            _ => self.add_cells_of_circle(shape, &mut walk),
+        }
+    }
+
+    fn start<const OUTLINES: bool>(
+        &mut self,
+        shape: Shape,
+        hull: &mut Hull,
+        sites: Sites<'_>,
+        pole: Option<&Ray>,
+        diagram: &mut Diagram,
+    ) {
         diagram.reset(pole.map(|pole| pole.unit), sites.len());
+        if OUTLINES {
+            diagram.make_outlines(sites.len());
+        }
         // Sites on a circle have two corners, in the place of two facets.
         if shape == Shape::Circle && hull.ring.len() > 2 {
             hull.facets.resize(2, Facet::NEW);
@@ -80,18 +136,38 @@ impl Outlines {
         let edges = (4 * hull.facets.len()).max(2 * hull.ring.len());
         self.shared.reset(hull.facets.len(), if pole.is_some() { edges } else { 0 });
         set_owners(&hull.twins, sites, diagram);
-        let mut walk = Walk { hull, sites, pole: pole.as_ref(), diagram };
-        match shape {
-            Shape::Point => {
-                self.around.clear();
-                self.add_cut_cell(0, &mut walk);
+    }
+
+    /// Adds the cells of sites that are no solid hull.
+    fn add_cells_of_circle(&mut self, shape: Shape, walk: &mut Walk<'_>) {
+        if shape == Shape::Point {
+            self.around.clear();
+            self.add_cut_cell(0, walk);
+        } else {
+            self.add_lunes(walk);
+        }
+    }
+
+    /// Measures all cells of a solid hull: by their facets alone, unless these are not enough.
+    fn measure_cells(&mut self, walk: &mut Walk<'_>) {
+        let mut tallies = core::mem::take(&mut self.tallies);
+        tallies.reset(walk.sites.len());
+        let Walk { hull, sites, pole, .. } = walk;
+        facets::add_all_facets(&mut self.batch, hull, *sites, pole.map(|pole| pole.unit), &mut tallies);
+        for site in 0..walk.sites.len() as u32 {
+            let (tally, first) = tallies.get(site);
+            if tally.is_nothing() {
+                continue;
             }
-            Shape::Circle => self.add_lunes(&mut walk),
-            Shape::Solid => self.add_cells(&mut walk),
+            let name = walk.name(site) as usize;
+            walk.diagram.solid_angles[name] = tally.solid_angle;
+            walk.diagram.vector_moments[name] = tally.moment;
+            if !tally.is_ordinary() {
+                self.spokes.go_to(site, first);
+                self.add_uneven_cell(0, walk);
+            }
         }
-        if pole.is_some() || self.shared.has_flats() {
-            self.shared.renumber(&hull.facets, &mut hull.planes, &mut diagram.vertex_indices);
-        }
+        self.tallies = tallies;
     }
 
     /// Adds all cells of a solid hull.
@@ -101,17 +177,13 @@ impl Outlines {
     fn add_cells(&mut self, walk: &mut Walk<'_>) {
         self.spokes.reset(&walk.hull.facets, walk.sites.len());
         if walk.sites.len() < MANY {
-            self.spokes.meet_all(walk.hull.facets.len());
-            self.add_facets(walk);
+            let Walk { hull, sites, diagram, .. } = walk;
+            let shares = &mut ByName { sites: *sites, diagram };
+            facets::add_all_facets(&mut self.batch, hull, *sites, walk.pole.map(|pole| pole.unit), shares);
             self.add_cells_in_turn::<false>(walk);
         } else {
             self.add_cells_in_turn::<true>(walk);
         }
-    }
-
-    fn add_facets(&mut self, walk: &mut Walk<'_>) {
-        let pole = walk.pole.map(|pole| pole.unit);
-        facets::add_facets(&mut self.batch, self.spokes.met(), walk.hull, walk.sites, pole, walk.diagram);
     }
 
     fn add_cells_in_turn<const MEETS: bool>(&mut self, walk: &mut Walk<'_>) {
@@ -130,7 +202,10 @@ impl Outlines {
                     prefetch(&hull.facets, (first >> 2) as usize);
                     prefetch(&hull.planes, (first >> 2) as usize);
                 });
-                self.add_facets(walk);
+                let Walk { hull, sites, pole, diagram } = walk;
+                let shares = &mut ByName { sites: *sites, diagram };
+                let pole = pole.map(|pole| pole.unit);
+                facets::add_facets(&mut self.batch, self.spokes.met(), hull, *sites, pole, shares);
             }
             for cell in 0..count {
                 if !self.add_ordinary_cell(cell, walk) {
@@ -335,7 +410,9 @@ impl Walk<'_> {
     fn set_record(&mut self, site: u32, start: usize) {
         let count = self.diagram.neighbors.len() - start;
         let name = self.name(site) as usize;
-        self.diagram.records[name] = Record { place: site, start: start as u32, count: count as u32 };
+        if let Some(record) = self.diagram.records.get_mut(name) {
+            *record = Record { place: site, start: start as u32, count: count as u32 };
+        }
     }
 
     /// Writes down the cell of `site`, whose outline starts at `start`.
@@ -380,7 +457,9 @@ fn set_owners(twins: &[(u32, u32)], sites: Sites<'_>, diagram: &mut Diagram) {
     diagram.owners.extend(0..sites.len() as u32);
     for &(site, twin) in twins {
         for place in [site, twin] {
-            diagram.records[sites.index(place)].place = place;
+            if let Some(record) = diagram.records.get_mut(sites.index(place)) {
+                record.place = place;
+            }
         }
         let (index, owner) = (sites.index(site), &mut diagram.owners[sites.index(twin)]);
         *owner = (*owner).min(index as u32);

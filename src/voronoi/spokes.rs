@@ -66,10 +66,9 @@ impl Spokes {
         }
     }
 
-    /// Meets all facets at once.
-    pub fn meet_all(&mut self, facets: usize) {
-        self.met.clear();
-        self.met.extend(0..facets as u32);
+    /// Goes to a cell alone, of which this is a corner.
+    pub fn go_to(&mut self, site: u32, first: Spoke) {
+        (self.sites[0], self.starts[0], self.counts[0]) = (site, first, STEPS + 1);
     }
 
     /// Goes on to the next cells; returns the number of them. `MEETS`: and sets `met`.
@@ -213,8 +212,14 @@ impl Known {
     /// Whether the cell may be thin: it has the hull of a corner and of a circle as wide as the shortest edge.
     #[inline(always)]
     pub fn may_be_thin(&self) -> bool {
-        self.shortest < FAR * self.reach
+        may_be_thin(self.reach, self.shortest)
     }
+}
+
+/// Whether a cell of such a reach may be thin, by the square of the shortest edge of its facets.
+#[inline(always)]
+pub(super) fn may_be_thin(reach: f32, shortest: f32) -> bool {
+    shortest < FAR * reach
 }
 
 /// The hull of a circle of radius r and a point at distance R is r R and more, four fifths of that on a sphere for R up to 37°:

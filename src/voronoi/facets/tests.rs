@@ -31,8 +31,9 @@ fn every_processor_gives_the_same_bits() {
                 diagrams.iter_mut().for_each(|diagram| diagram.reset(pole, count));
                 let [diagram, plain] = &mut diagrams;
                 let (batch, new) = (&mut batch, &new[..]);
-                add_facets(batch, new, &mut hull, sites, pole, diagram);
-                AddFacets { batch, new, hull: &mut other, sites, pole, diagram: plain }.run::<f64>();
+                add_facets(batch, new, &mut hull, sites, pole, &mut Named { sites, diagram });
+                let shares = &mut Named { sites, diagram: plain };
+                AddFacets { batch, new, hull: &mut other, sites, pole, shares }.run::<f64>();
                 let bits =
                     |v: &[DVec3]| -> Vec<[u64; 3]> { v.iter().map(|v| v.to_array().map(f64::to_bits)).collect() };
                 assert_eq!(bits(&hull.planes), bits(&other.planes), "{count} {pole:?}");
