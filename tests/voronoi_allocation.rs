@@ -55,7 +55,9 @@ fn a_warm_builder_does_not_allocate() {
         let sites = sites::make(kind, 700, &mut rng);
         let mut builder = Builder::new();
         let mut build = |n: usize, pole: DVec3| {
-            assert!(builder.sphere(&sites[..n]).is_ok() && builder.hemisphere(&sites[..n], pole).is_ok());
+            let sites = &sites[..n];
+            assert!(builder.sphere(sites).is_ok() && builder.hemisphere(sites, pole).is_ok());
+            assert!(builder.measure_sphere(sites).is_ok() && builder.measure_hemisphere(sites, pole).is_ok());
         };
         let mut pass = || {
             build(sites.len(), sites[0]);
@@ -78,6 +80,10 @@ fn a_builder_is_warm_after_one_diagram() {
             let mut build = || assert!(builder.hemisphere(&sites, pole).is_ok());
             assert!(allocations(&mut build) > 0);
             assert_eq!(allocations(&mut build), 0, "{kind:?}, {round}");
+            let mut builder = Builder::new();
+            let mut measure = || assert!(builder.measure_hemisphere(&sites, pole).is_ok());
+            assert!(allocations(&mut measure) > 0);
+            assert_eq!(allocations(&mut measure), 0, "{kind:?}, {round}, measures");
         }
     }
 }

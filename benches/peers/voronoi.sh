@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # voronoi.sh install DIR           installs the other programs below DIR from their registries; says which it cannot have
-# voronoi.sh run DIR PEER SITES AREAS REPEAT
+# voronoi.sh run DIR PEER SITES AREAS REPEAT [SETS]
 #     SITES: doubles x y z of each site, little-endian; AREAS: is filled with the solid angle of each cell, or not at all.
 #     Prints the least CPU seconds of REPEAT triangulations, the same with cells and areas (or a dash), and the peak kB.
+#     SETS (CGAL): so many sets of sites are in the file, all triangulated one after another; their time together, no areas.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 mkdir -p "$2"

@@ -45,6 +45,10 @@ struct Options {
     child: Option<Vec<String>>,
     #[arg(long, hide = true)]
     hemisphere: bool,
+    #[arg(long, hide = true)]
+    measures: bool,
+    #[arg(long, hide = true, default_value_t = 1)]
+    sets: usize,
 }
 
 fn main() -> ExitCode {
@@ -59,7 +63,9 @@ fn main() -> ExitCode {
 
 fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     if let Some([sites, areas, repeat]) = options.child.as_deref() {
-        return programs::child(Path::new(sites), Path::new(areas), repeat.parse()?, options.hemisphere);
+        let &Options { hemisphere, measures, sets, .. } = options;
+        let task = programs::Task { repeat: repeat.parse()?, sets, hemisphere, measures };
+        return programs::child(Path::new(sites), Path::new(areas), task);
     }
     let installer = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/peers/voronoi.sh");
     Command::new(installer).arg("install").arg(&options.peers).status()?;

@@ -5,7 +5,7 @@ use std::error::Error;
 use steradian::voronoi;
 
 use super::errors::{Reference, sum_error};
-use super::programs::{Folder, LARGEST, PROGRAMS, Run};
+use super::programs::{Folder, LARGEST, PROGRAMS, Run, Task};
 use super::{seeds, shapes};
 
 /// Most cells that are computed again with thirty digits.
@@ -14,7 +14,7 @@ pub const SAMPLE: usize = 100_000;
 /// One program on one set of sites.
 #[derive(Clone, Debug, Default)]
 pub struct Result {
-    /// Least CPU seconds of all rounds.
+    /// Least CPU seconds of all rounds; of this crate, without outlines and with them.
     pub build: Option<f64>,
     pub total: Option<f64>,
     pub peak: Option<f64>,
@@ -77,7 +77,7 @@ pub fn report(
         size(folder, n, rounds, &mut report)?;
         n *= 10;
     }
-    report.ratios.push(dome(folder, rounds.max(9))?);
+    domes(folder, rounds.max(9), &mut report)?;
     for shape_kind in shapes::HARD {
         report.shapes.push(hard(folder, shape_kind, shape, rounds)?);
     }
@@ -96,27 +96,34 @@ fn size(folder: &Folder, n: usize, rounds: usize, report: &mut Report) -> std::r
     folder.write(&sites)?;
     let mut results: Vec<Option<Result>> = vec![None; PROGRAMS.len()];
     let mut areas = vec![None; PROGRAMS.len()];
-    let mut ratios = Vec::new();
+    let mut ratios = [Vec::new(), Vec::new()];
     for _ in 0..rounds {
-        let mut builds = [None; PROGRAMS.len()];
+        let (mut builds, mut whole) = ([None; PROGRAMS.len()], None);
         for program in 0..PROGRAMS.len() {
             // The slow ones need not be repeated, and their rounds at a million sites neither.
             let slow = program > 1;
             if n > LARGEST[program] || slow && n > 10_000 && results[program].is_some() {
                 continue;
             }
-            let repeat = if slow { repeat(10 * n) } else { repeat(n) };
-            let Some(run) = folder.run(program, repeat, false)? else { continue };
-            let Run { build, total, peak, areas: cells } = run;
-            builds[program] = if program == 0 { total } else { build };
+            let task = Task::new(if slow { repeat(10 * n) } else { repeat(n) });
+            let Some(run) = folder.run(program, task)? else { continue };
+            let Run { mut build, total, peak, areas: cells } = run;
+            if program == 0 {
+                build = folder.run(program, Task { measures: true, ..task })?.and_then(|run| run.total);
+            }
+            builds[program] = build;
+            if program == 0 {
+                whole = total;
+            }
             let result = results[program].get_or_insert_default();
             result.build = least(result.build, build);
             result.total = least(result.total, total);
             result.peak = least(result.peak, peak);
             areas[program] = cells;
         }
-        if let [Some(own), Some(cgal), ..] = builds {
-            ratios.push(own / cgal);
+        if let ([Some(own), Some(cgal), ..], Some(whole)) = (builds, whole) {
+            ratios[0].push(own / cgal);
+            ratios[1].push(whole / cgal);
         }
     }
     let diagram = voronoi::sphere(&sites)?;
@@ -128,36 +135,49 @@ fn size(folder: &Folder, n: usize, rounds: usize, report: &mut Report) -> std::r
             result.sum_error = Some(sum_error(areas));
         }
     }
-    let what = format!("{n} random sites: triangulation, cells, areas and moments over CGAL's triangulation alone");
-    report.ratios.push(Ratio { what, value: median(ratios) });
+    for (values, measures) in ratios.into_iter().zip([true, false]) {
+        report.ratios.push(Ratio { what: format!("{n} random sites: {}", asked(measures)), value: median(values) });
+    }
     if repeat(n) == 1 {
-        let value = median_of_turns(folder, 3, false, rounds)?;
-        report.ratios.push(Ratio { what: "the same, the least of three in a process".into(), value });
+        for measures in [true, false] {
+            let value = median_of_turns(folder, Task { measures, ..Task::new(3) }, rounds)?;
+            let what = format!("the same, the least of three in a process: {}", asked(measures));
+            report.ratios.push(Ratio { what, value });
+        }
     }
     report.sizes.push(Size { n, results });
     Ok(())
 }
 
-/// The job of a sampler: 200 sites above the horizon, over and over.
-fn dome(folder: &Folder, rounds: usize) -> std::result::Result<Ratio, Box<dyn Error>> {
-    let sites = shapes::sites(shapes::Shape::Dome, 200, &mut seeds::rng(200));
-    folder.write(&sites)?;
-    let value = median_of_turns(folder, 500, true, rounds)?;
-    let what = "200 sites, hemisphere, warm builder, solid angles and moments over CGAL's triangulation alone".into();
-    Ok(Ratio { what, value })
+fn asked(measures: bool) -> &'static str {
+    if measures { "measures" } else { "measures and outlines" }
 }
 
-/// This crate's time over that of CGAL's triangulation for the sites that were written, each the least of `repeat`.
-fn median_of_turns(
-    folder: &Folder,
-    repeat: usize,
-    hemisphere: bool,
-    rounds: usize,
-) -> std::result::Result<Option<f64>, Box<dyn Error>> {
+/// The job of a sampler: 200 sites above the horizon, others every time; and the same ones over and over, which processors
+/// learn by heart.
+fn domes(folder: &Folder, rounds: usize, report: &mut Report) -> std::result::Result<(), Box<dyn Error>> {
+    const SETS: usize = 500;
+    let sites = shapes::sites(shapes::Shape::Dome, 200 * SETS, &mut seeds::rng(200));
+    for (sites, sets, repeat, which) in
+        [(&sites[..], SETS, 3, "others every time"), (&sites[..200], 1, 500, "the same ones over and over")]
+    {
+        folder.write(sites)?;
+        for measures in [true, false] {
+            let task = Task { repeat, sets, hemisphere: true, measures };
+            let value = median_of_turns(folder, task, rounds)?;
+            let what = format!("200 sites, hemisphere, warm builder, {which}: {}", asked(measures));
+            report.ratios.push(Ratio { what, value });
+        }
+    }
+    Ok(())
+}
+
+/// This crate's time over that of CGAL's triangulation for the sites that were written.
+fn median_of_turns(folder: &Folder, task: Task, rounds: usize) -> std::result::Result<Option<f64>, Box<dyn Error>> {
     let mut ratios = Vec::new();
     for _ in 0..rounds {
-        let own = folder.run(0, repeat, hemisphere)?.and_then(|run| run.total);
-        let cgal = folder.run(1, repeat, false)?.and_then(|run| run.build);
+        let own = folder.run(0, task)?.and_then(|run| run.total);
+        let cgal = folder.run(1, task)?.and_then(|run| run.build);
         if let (Some(own), Some(cgal)) = (own, cgal) {
             ratios.push(own / cgal);
         }
@@ -177,12 +197,12 @@ fn hard(
     let (mut seconds, mut ratios, mut cgal) = (None, Vec::new(), None);
     for round in 0..rounds {
         folder.write(&random)?;
-        let base = folder.run(0, 1, false)?.and_then(|run| run.total);
+        let base = folder.run(0, Task::new(1))?.and_then(|run| run.total);
         folder.write(&sites)?;
-        let own = folder.run(0, 1, false)?.and_then(|run| run.total);
+        let own = folder.run(0, Task::new(1))?.and_then(|run| run.total);
         // CGAL takes the square of the number of sites on one circle.
         if round == 0 && shape != shapes::Shape::SmallCircle {
-            cgal = folder.run(1, 1, false)?.and_then(|run| run.build);
+            cgal = folder.run(1, Task::new(1))?.and_then(|run| run.build);
         }
         if let (Some(own), Some(base)) = (own, base) {
             ratios.push(own / base);

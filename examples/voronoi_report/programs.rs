@@ -19,11 +19,30 @@ pub const PROGRAMS: [&str; 5] = ["steradian", "CGAL", "scipy", "stripy", "d3-geo
 /// Largest number of sites that each is given: more takes minutes.
 pub const LARGEST: [usize; 5] = [usize::MAX, usize::MAX, 1_000_000, 100_000, 100_000];
 
+/// What a program is to do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Task {
+    /// Of how many times the least is taken.
+    pub repeat: usize,
+    /// How many sets of sites are in the file, taken one after another.
+    pub sets: usize,
+    /// This crate: clipped by a horizon, and without outlines.
+    pub hemisphere: bool,
+    pub measures: bool,
+}
+
+impl Task {
+    /// Whole diagrams of the sphere.
+    pub fn new(repeat: usize) -> Self {
+        Self { repeat, sets: 1, hemisphere: false, measures: false }
+    }
+}
+
 #[derive(Clone, Debug, Default)]
 pub struct Run {
     /// CPU seconds of the triangulation alone.
     pub build: Option<f64>,
-    /// CPU seconds of the triangulation, the cells and their areas.
+    /// CPU seconds of the triangulation, the cells and their areas; of what the task asks of this crate.
     pub total: Option<f64>,
     /// Peak of the memory of the process, in bytes.
     pub peak: Option<f64>,
@@ -43,19 +62,24 @@ impl Folder {
     }
 
     /// Runs program number `program` on the sites that were written; `None` if it is not installed or fails.
-    pub fn run(&self, program: usize, repeat: usize, hemisphere: bool) -> Result<Option<Run>, Box<dyn Error>> {
+    pub fn run(&self, program: usize, task: Task) -> Result<Option<Run>, Box<dyn Error>> {
         let (sites, areas) = (self.path.join("sites"), self.path.join("areas"));
         _ = fs::remove_file(&areas);
         let mut command = if program == 0 {
             let mut own = Command::new(std::env::current_exe()?);
-            own.args(hemisphere.then_some("--hemisphere")).arg("--child");
+            own.args(task.hemisphere.then_some("--hemisphere")).args(task.measures.then_some("--measures"));
+            own.args(["--sets", &task.sets.to_string(), "--child"]);
             own
         } else {
             let mut peer = Command::new(concat!(env!("CARGO_MANIFEST_DIR"), "/benches/peers/voronoi.sh"));
             peer.arg("run").arg(&self.path).arg(["", "cgal", "scipy", "stripy", "d3"][program]);
             peer
         };
-        let output = command.arg(&sites).arg(&areas).arg(repeat.to_string()).output()?;
+        command.arg(&sites).arg(&areas).arg(task.repeat.to_string());
+        if program > 0 && task.sets > 1 {
+            command.arg(task.sets.to_string());
+        }
+        let output = command.output()?;
         if !output.status.success() {
             if output.status.code() != Some(3) {
                 let message = String::from_utf8_lossy(&output.stderr);
@@ -78,18 +102,27 @@ fn doubles(bytes: &[u8]) -> Vec<f64> {
     bytes.chunks_exact(8).map(|x| f64::from_le_bytes(x.try_into().unwrap_or_default())).collect()
 }
 
-/// What this crate does in a process of its own: a warm builder if it is asked to repeat, with all that a diagram has.
-pub fn child(sites: &Path, areas: &Path, repeat: usize, hemisphere: bool) -> Result<(), Box<dyn Error>> {
+/// What this crate does in a process of its own, by a builder that is warm if it is asked to repeat.
+pub fn child(sites: &Path, areas: &Path, task: Task) -> Result<(), Box<dyn Error>> {
     let sites: Vec<DVec3> = doubles(&fs::read(sites)?).chunks_exact(3).map(DVec3::from_slice).collect();
     let mut builder = Builder::new();
     let mut least = f64::INFINITY;
-    for last in (0..repeat).rev() {
-        let start = ProcessTime::now();
-        let diagram = if hemisphere { builder.hemisphere(&sites, DVec3::Z)? } else { builder.sphere(&sites)? };
-        least = least.min(start.elapsed().as_secs_f64());
-        if last == 0 {
-            fs::write(areas, diagram.solid_angles().iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>())?;
+    for last in (0..task.repeat).rev() {
+        let mut seconds = 0.0;
+        for set in sites.chunks(sites.len() / task.sets) {
+            let start = ProcessTime::now();
+            let solid_angles = match (task.hemisphere, task.measures) {
+                (false, false) => builder.sphere(set)?.solid_angles(),
+                (true, false) => builder.hemisphere(set, DVec3::Z)?.solid_angles(),
+                (false, true) => builder.measure_sphere(set)?.solid_angles(),
+                (true, true) => builder.measure_hemisphere(set, DVec3::Z)?.solid_angles(),
+            };
+            seconds += start.elapsed().as_secs_f64();
+            if last == 0 {
+                fs::write(areas, solid_angles.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>())?;
+            }
         }
+        least = least.min(seconds);
     }
     println!("- {least:.9} {}", peak().map_or("-".into(), |kb| kb.to_string()));
     Ok(())

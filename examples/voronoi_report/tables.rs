@@ -33,16 +33,14 @@ pub fn section(report: &Report) -> String {
     let mut out = String::from(
         "## `voronoi`\n\nRandom sites, each program in a process of its own, one thread, in turns; least CPU time of all rounds, \
          of some diagrams in each process up to 10000 sites, and of one from there on. \
-         This crate gives the whole diagram: vertices, neighbours, solid angles and vector moments. CGAL has no areas; the \
+         The first number of this crate is the triangulation with vertices, solid angles and vector moments of the cells; the \
+         second one the whole diagram, with outlines. CGAL has no areas; its \
          second number is with circumcentres and fans in doubles on top. scipy: convex hull alone / diagram, sorted, with \
          areas. stripy has triangles only. d3-geo-voronoi: triangles / polygons with areas.\n\n\
-         ns a site, triangulation / with cells and areas:\n",
+         ns a site, triangulation / with cells and areas (this crate: with measures / and outlines):\n",
     );
     table(&mut out, report, |result, n| {
         let scale = 1e9 / n as f64;
-        if result.build.is_none() {
-            return cell(result.total, scale);
-        }
         format!("{} / {}", cell(result.build, scale), cell(result.total, scale))
     });
     for message in &report.refused {
@@ -83,7 +81,10 @@ pub fn section(report: &Report) -> String {
         let (own, cgal) = (cell(Some(shape.seconds), scale), cell(shape.cgal, scale));
         out.push_str(&format!("| {} | {} | {own} | {:.2} | {cgal} |\n", shape.name, shape.n, shape.ratio));
     }
-    out.push_str("\nRatios of times taken in turns, median of the rounds:\n\n| what | ratio |\n|---|---|\n");
+    out.push_str(
+        "\nThis crate's time over that of CGAL's triangulation alone, taken in turns, median of the rounds:\n\n\
+         | what | ratio |\n|---|---|\n",
+    );
     for ratio in &report.ratios {
         out.push_str(&format!("| {} | {} |\n", ratio.what, cell(ratio.value, 1.0)));
     }

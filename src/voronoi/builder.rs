@@ -4,9 +4,10 @@ use glam::DVec3;
 
 use super::diagram::Diagram;
 use super::error::VoronoiError;
-use super::hull::Hull;
+use super::hull::{Hull, Shape};
+use super::measures::Measures;
 use super::order;
-use super::outlines::Outlines;
+use super::outlines::{Outlines, Want};
 use super::ray::Ray;
 use super::sites::Sites;
 
@@ -51,19 +52,7 @@ impl Builder {
     ///
     /// Those of [`sphere`](super::sphere).
     pub fn sphere(&mut self, sites: &[DVec3]) -> Result<&Diagram, VoronoiError> {
-        self.build::<true>(sites, None)?;
-        Ok(&self.diagram)
-    }
-
-    /// Measures.
-    pub fn measure_sphere(&mut self, sites: &[DVec3]) -> Result<&Diagram, VoronoiError> {
-        self.build::<false>(sites, None)?;
-        Ok(&self.diagram)
-    }
-
-    /// Measures.
-    pub fn measure_hemisphere(&mut self, sites: &[DVec3], pole: DVec3) -> Result<&Diagram, VoronoiError> {
-        self.build::<false>(sites, Some(Ray::new(pole)))?;
+        self.build(sites, None, Want::Outlines)?;
         Ok(&self.diagram)
     }
 
@@ -73,21 +62,38 @@ impl Builder {
     ///
     /// Those of [`hemisphere`](super::hemisphere).
     pub fn hemisphere(&mut self, sites: &[DVec3], pole: DVec3) -> Result<&Diagram, VoronoiError> {
-        if !pole.is_finite() {
-            return Err(VoronoiError::PoleNotFinite { pole });
-        }
-        if pole == DVec3::ZERO {
-            return Err(VoronoiError::ZeroPole);
-        }
-        self.build::<true>(sites, Some(Ray::new(pole)))?;
+        let pole = check_pole(pole)?;
+        self.build(sites, Some(pole), Want::Outlines)?;
         Ok(&self.diagram)
+    }
+
+    /// The measures of the cells of the whole sphere, and the Delaunay triangulation.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`sphere`](super::sphere).
+    pub fn measure_sphere(&mut self, sites: &[DVec3]) -> Result<Measures<'_>, VoronoiError> {
+        let shape = self.build(sites, None, Want::Measures)?;
+        let facets = if shape == Shape::Solid { &self.hull.facets[..] } else { &[] };
+        Ok(Measures { diagram: &self.diagram, keys: &self.keys, facets })
+    }
+
+    /// The measures of the cells, clipped by the horizon of `pole`.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`hemisphere`](super::hemisphere).
+    pub fn measure_hemisphere(&mut self, sites: &[DVec3], pole: DVec3) -> Result<Measures<'_>, VoronoiError> {
+        let pole = check_pole(pole)?;
+        self.build(sites, Some(pole), Want::Measures)?;
+        Ok(Measures { diagram: &self.diagram, keys: &self.keys, facets: &[] })
     }
 
     pub(super) fn into_diagram(self) -> Diagram {
         self.diagram
     }
 
-    fn build<const OUTLINES: bool>(&mut self, given: &[DVec3], pole: Option<Ray>) -> Result<(), VoronoiError> {
+    fn build(&mut self, given: &[DVec3], pole: Option<Ray>, want: Want) -> Result<Shape, VoronoiError> {
         check(given)?;
         let Self { keys, rests, hull, outlines, diagram } = self;
         order::sort(given, keys);
@@ -95,14 +101,27 @@ impl Builder {
         let sites = Sites::new(given, keys, &mut directions, rests);
         // The planes of the hull become the corners of the diagram, in place.
         core::mem::swap(&mut hull.planes, &mut diagram.vertices);
-        let result = hull.build(sites).map(|shape| if OUTLINES { outlines.build(shape, hull, sites, pole, diagram) } else { outlines.measure(shape, hull, sites, pole, diagram) });
+        let shape = hull.build(sites);
+        if let Ok(shape) = shape {
+            outlines.build(want, shape, hull, sites, pole, diagram);
+        }
         core::mem::swap(&mut hull.planes, &mut diagram.vertices);
         diagram.directions = directions;
-        if result.is_err() {
+        if shape.is_err() {
             *diagram = Diagram::default();
         }
-        result
+        shape
     }
+}
+
+fn check_pole(pole: DVec3) -> Result<Ray, VoronoiError> {
+    if !pole.is_finite() {
+        return Err(VoronoiError::PoleNotFinite { pole });
+    }
+    if pole == DVec3::ZERO {
+        return Err(VoronoiError::ZeroPole);
+    }
+    Ok(Ray::new(pole))
 }
 
 fn check(sites: &[DVec3]) -> Result<(), VoronoiError> {

@@ -142,7 +142,7 @@ impl Diagram {
     }
 
     /// Makes room for the outlines of the cells of `len` sites, all empty.
-    pub(super) fn make_outlines(&mut self, len: usize) {
+    pub(super) fn reset_outlines(&mut self, len: usize) {
         self.records.resize(len, Record::default());
         self.neighbors.reserve(6 * len);
         self.vertex_indices.reserve(6 * len);

@@ -83,6 +83,7 @@ mod incircle;
 mod insertion;
 mod locator;
 mod measure;
+mod measures;
 mod order;
 mod outlines;
 mod predicate;
@@ -104,6 +105,7 @@ pub use diagram::{Cell, Diagram, HORIZON};
 pub use error::VoronoiError;
 pub use locator::{Locator, LocatorError};
 pub use measure::{PLANE_ERROR, RELATIVE_ERROR, SOLID_ANGLE_ERROR};
+pub use measures::Measures;
 pub use validate::{CORNER_ERROR, Defect, ERROR_PER_EDGE};
 
 /// The Voronoi diagram of `sites` on the whole sphere; its cells sum to 4π.

@@ -17,9 +17,17 @@ use super::predicate::orientation;
 use super::ray::Ray;
 use super::shared::Shared;
 use super::sites::Sites;
-use super::tally::Tallies;
 use super::spokes::{Known, STEPS, Spoke, Spokes, facet, neighbor};
+use super::tally::Tallies;
 use crate::solid_angle::dispatch::prefetch;
+
+/// What is to be known of the cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Want {
+    Outlines,
+    /// Measures alone: outlines are of no use then, if there are any.
+    Measures,
+}
 
 /// What the walk works with, to be used again.
 #[derive(Clone, Debug, Default)]
@@ -87,46 +95,18 @@ impl Shares for ByName<'_> {
 
 impl Outlines {
     /// Sets all of `diagram` but its directions; its vertices are in the place of the hull's planes.
-    pub fn build(&mut self, shape: Shape, hull: &mut Hull, sites: Sites<'_>, pole: Option<Ray>, diagram: &mut Diagram) {
-        self.start::<true>(shape, hull, sites, pole.as_ref(), diagram);
-        let mut walk = Walk { hull, sites, pole: pole.as_ref(), diagram };
-        match shape {
-            Shape::Solid => self.add_cells(&mut walk),
-            _ => self.add_cells_of_circle(shape, &mut walk),
-        }
-        if pole.is_some() || self.shared.has_flats() {
-            self.shared.renumber(&hull.facets, &mut hull.planes, &mut diagram.vertex_indices);
-        }
-    }
-
-    /// Sets the measures of all cells in `diagram`, whose outlines are of no use then.
-    pub fn measure(
+    pub fn build(
         &mut self,
+        want: Want,
         shape: Shape,
         hull: &mut Hull,
         sites: Sites<'_>,
         pole: Option<Ray>,
         diagram: &mut Diagram,
     ) {
-        self.start::<false>(shape, hull, sites, pole.as_ref(), diagram);
-        let mut walk = Walk { hull, sites, pole: pole.as_ref(), diagram };
-        match shape {
-            Shape::Solid => self.measure_cells(&mut walk),
-            _ => self.add_cells_of_circle(shape, &mut walk),
-        }
-    }
-
-    fn start<const OUTLINES: bool>(
-        &mut self,
-        shape: Shape,
-        hull: &mut Hull,
-        sites: Sites<'_>,
-        pole: Option<&Ray>,
-        diagram: &mut Diagram,
-    ) {
         diagram.reset(pole.map(|pole| pole.unit), sites.len());
-        if OUTLINES {
-            diagram.make_outlines(sites.len());
+        if want == Want::Outlines {
+            diagram.reset_outlines(sites.len());
         }
         // Sites on a circle have two corners, in the place of two facets.
         if shape == Shape::Circle && hull.ring.len() > 2 {
@@ -136,15 +116,22 @@ impl Outlines {
         let edges = (4 * hull.facets.len()).max(2 * hull.ring.len());
         self.shared.reset(hull.facets.len(), if pole.is_some() { edges } else { 0 });
         set_owners(&hull.twins, sites, diagram);
-    }
-
-    /// Adds the cells of sites that are no solid hull.
-    fn add_cells_of_circle(&mut self, shape: Shape, walk: &mut Walk<'_>) {
-        if shape == Shape::Point {
-            self.around.clear();
-            self.add_cut_cell(0, walk);
-        } else {
-            self.add_lunes(walk);
+        let mut walk = Walk { hull, sites, pole: pole.as_ref(), diagram };
+        match (shape, want) {
+            (Shape::Point, _) => {
+                self.around.clear();
+                self.add_cut_cell(0, &mut walk);
+            }
+            (Shape::Circle, _) => self.add_lunes(&mut walk),
+            (Shape::Solid, Want::Outlines) => self.add_cells(&mut walk),
+            (Shape::Solid, Want::Measures) => self.measure_cells(&mut walk),
+        }
+        match want {
+            Want::Outlines if pole.is_some() || self.shared.has_flats() => {
+                self.shared.renumber(&hull.facets, &mut hull.planes, &mut diagram.vertex_indices);
+            }
+            Want::Measures if self.shared.has_flats() => self.shared.complete(&hull.facets, &mut hull.planes),
+            _ => {}
         }
     }
 

@@ -53,6 +53,23 @@ impl Shared {
         Some((*vertex, self.points[(*vertex - self.first) as usize]))
     }
 
+    /// Gives facets without a corner that of another one, if it is the same.
+    pub fn complete(&mut self, facets: &[Facet], vertices: &mut [DVec3]) {
+        let Self { flats, lower, numbers, .. } = self;
+        unite(flats, facets.len(), lower);
+        numbers.clear();
+        numbers.resize(facets.len(), NONE);
+        let is_set = |f: usize| facets[f].mark & SET != 0;
+        for f in (0..facets.len()).filter(|&f| is_set(f)) {
+            numbers[root(lower, f as u32) as usize] = f as u32;
+        }
+        for f in (0..facets.len()).filter(|&f| !is_set(f)) {
+            if let Some(&vertex) = vertices.get(numbers[root(lower, f as u32) as usize] as usize) {
+                vertices[f] = vertex;
+            }
+        }
+    }
+
     /// Leaves of the corners of facets, in `vertices`, and of those on the horizon each one once that is in `indices`.
     #[inline(never)]
     pub fn renumber(&mut self, facets: &[Facet], vertices: &mut Vec<DVec3>, indices: &mut [u32]) {
@@ -68,12 +85,7 @@ impl Shared {
             }
         } else {
             numbers.resize(facets.len(), NONE);
-            lower.clear();
-            lower.extend(0..facets.len() as u32);
-            for &(a, b) in flats.iter() {
-                let (a, b) = (root(lower, a), root(lower, b));
-                lower[a.max(b) as usize] = a.min(b);
-            }
+            unite(flats, facets.len(), lower);
             for (f, facet) in facets.iter().enumerate() {
                 let root = root(lower, f as u32) as usize;
                 if numbers[root] == NONE && facet.mark & SET != 0 {
@@ -92,6 +104,16 @@ impl Shared {
         for index in indices {
             *index = numbers.get(*index as usize).copied().unwrap_or(NO_VERTEX);
         }
+    }
+}
+
+/// Sets `lower` for so many corners, pairs of which are the same.
+fn unite(pairs: &[(u32, u32)], corners: usize, lower: &mut Vec<u32>) {
+    lower.clear();
+    lower.extend(0..corners as u32);
+    for &(a, b) in pairs {
+        let (a, b) = (root(lower, a), root(lower, b));
+        lower[a.max(b) as usize] = a.min(b);
     }
 }
 

@@ -1,8 +1,10 @@
 //! What must hold for the diagram of any sites at all: used by tests and by fuzzing.
 #![allow(dead_code, reason = "each user takes a part of it")]
 
+use std::collections::HashSet;
+
 use steradian::glam::DVec3;
-use steradian::voronoi::{self, Builder, Diagram, HORIZON, VoronoiError};
+use steradian::voronoi::{self, Builder, CORNER_ERROR, Diagram, HORIZON, Measures, VoronoiError};
 
 fn diagram(sites: &[DVec3], pole: Option<DVec3>) -> Result<Diagram, VoronoiError> {
     match pole {
@@ -44,6 +46,56 @@ pub fn check(sites: &[DVec3], pole: Option<DVec3>) {
     match again {
         Ok(again) => assert_same_bits(&first, again),
         Err(error) => panic!("{error} for {scaled:?}"),
+    }
+    let measures = match pole {
+        None => builder.measure_sphere(sites),
+        Some(pole) => builder.measure_hemisphere(sites, pole),
+    };
+    match measures {
+        Ok(measures) => check_measures(&first, measures, sites),
+        Err(error) => panic!("{error} for {sites:?}"),
+    }
+}
+
+/// Measures without outlines are those of the diagram, and the triangles are its dual.
+fn check_measures(diagram: &Diagram, measures: Measures<'_>, sites: &[DVec3]) {
+    let bits = |v: DVec3| v.to_array().map(f64::to_bits);
+    for cell in diagram.cells() {
+        let (solid_angle, moment) = (measures.solid_angles()[cell.site()], measures.vector_moments()[cell.site()]);
+        let (want, want_moment) = (cell.solid_angle(), cell.vector_moment());
+        let same = want.to_bits() == solid_angle.to_bits() && bits(want_moment) == bits(moment);
+        // The parts of cells of very many sites are summed in another order, and of cells of many edges in another way.
+        let edges = cell.neighbors().len();
+        let is_other = diagram.len() > 30_000 || edges > 16;
+        let rounding = if is_other { edges as f64 * 4.0 * f64::EPSILON } else { 0.0 };
+        // Moments are sums over the border.
+        let border = want.sqrt();
+        let near =
+            (want - solid_angle).abs() <= rounding * want && (want_moment - moment).length() <= rounding * border;
+        assert!(same || near, "{solid_angle} and {moment} instead of {want} and {want_moment} of {}", cell.site());
+    }
+    let owners = diagram.cells().filter(|cell| cell.owner() == cell.site()).count();
+    let vertices = measures.vertices();
+    assert_eq!(measures.triangles().len(), vertices.len());
+    if vertices.is_empty() {
+        return;
+    }
+    assert_eq!(vertices.len(), 2 * owners - 4, "Euler's formula for triangles of {sites:?}");
+    let mut edges = HashSet::new();
+    for (triangle, &vertex) in measures.triangles().zip(vertices) {
+        for k in 0..3 {
+            let (from, to) = (triangle[k], triangle[(k + 1) % 3]);
+            assert!(edges.insert((from, to)), "two triangles are on one side of {from} and {to} of {sites:?}");
+            // Corners of four cells and more are found more than once.
+            let is_near = |corner: DVec3| corner.distance(vertex) <= 4.0 * CORNER_ERROR;
+            let is_corner = diagram.cell(from as usize).vertices().any(is_near);
+            assert!(is_corner, "{vertex} of {triangle:?} is no corner of {from} of {sites:?}");
+        }
+    }
+    assert!(edges.iter().all(|&(from, to)| edges.contains(&(to, from))), "an edge of one triangle of {sites:?}");
+    for cell in diagram.cells() {
+        let is_edge = |&neighbor: &u32| edges.contains(&(cell.site() as u32, neighbor));
+        assert!(cell.neighbors().iter().all(is_edge), "neighbours without an edge of {sites:?}");
     }
 }
 
