@@ -1,4 +1,4 @@
-//! Speed of diagrams with a warm builder: solid angles, vector moments, vertices and neighbours included.
+//! Speed of diagrams with a warm builder: solid angles, vector moments, vertices and neighbours included; and of measures alone.
 //!
 //! Rates are sites a second. Other programs on the same sites, larger numbers and errors: examples/voronoi_report.
 
@@ -64,6 +64,25 @@ fn diagrams(criterion: &mut Criterion) {
     }
 }
 
+/// Asserts that the measures are those of the diagram, then times them without it.
+fn measures(criterion: &mut Criterion) {
+    let mut rng = seeds::rng(3);
+    let mut group = criterion.benchmark_group("voronoi");
+    for n in [50, 200, 1000] {
+        let dome = make(Kind::UpperHalf, n, &mut rng);
+        let want = voronoi::hemisphere(&dome, DVec3::Z).expect("sites are valid");
+        let mut builder = Builder::new();
+        let mut measure = |sites: &[DVec3]| -> f64 {
+            let measures = builder.measure_hemisphere(sites, DVec3::Z).expect("sites are valid");
+            measures.solid_angles()[n - 1]
+        };
+        assert_eq!(measure(&dome), want.solid_angles()[n - 1]);
+        group.throughput(Throughput::Elements(n as u64));
+        group.bench_function(format!("measures/{n}"), |bencher| bencher.iter(|| measure(black_box(&dome))));
+    }
+    group.finish();
+}
+
 /// Asserts that sites are nearest to themselves, then times random directions one after another.
 fn queries(criterion: &mut Criterion) {
     let mut rng = seeds::rng(2);
@@ -86,6 +105,6 @@ fn queries(criterion: &mut Criterion) {
 criterion_group! {
     name = benches;
     config = Criterion::default().sample_size(20);
-    targets = diagrams, queries
+    targets = diagrams, measures, queries
 }
 criterion_main!(benches);
