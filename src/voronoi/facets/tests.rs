@@ -81,7 +81,7 @@ fn shares_of_a_facet_sum_to_its_solid_angle_and_its_corner_is_as_far_from_all_si
                 add_facets(&mut batch, &[f], &mut hull, sites, None, &mut ByName { sites, diagram: &mut diagram });
                 let facet = hull.facets[f as usize];
                 let [a, b, c] = facet.sites.map(|site| sites.unit(site));
-                let shares: f64 = (0..3).map(|k| batch.solid_angles[k][0]).sum();
+                let shares: f64 = (0..3).map(|k| batch.sums[k][3][0]).sum();
                 if facet.class() != ABOVE {
                     assert_eq!(shares, 0.0);
                     continue;
