@@ -238,11 +238,11 @@ impl<S: Shares> Kernel for AddFacets<'_, S> {
 impl Batch {
     #[inline(always)]
     fn load(&mut self, new: &[u32], facets: &[Facet], sites: Sites<'_>) {
-        for (lane, &f) in (0..BATCH).zip(new) {
-            let facet = &facets[f as usize];
-            for k in 0..3 {
-                set(&mut self.units[k], lane, sites.unit(facet.sites[k]));
-                set(&mut self.rests[k], lane, sites.rest(facet.sites[k]));
+        let (units, rests) = sites.rows();
+        for lane in 0..new.len().min(BATCH) {
+            for (k, site) in facets[new[lane] as usize].sites.into_iter().enumerate() {
+                set(&mut self.units[k], lane, units[site as usize]);
+                set(&mut self.rests[k], lane, DVec3::from_array(rests[site as usize].map(f64::from)));
             }
         }
     }
@@ -331,7 +331,8 @@ impl Batch {
     #[inline(always)]
     fn store(&self, new: &[u32], facets: &mut [Facet], planes: &mut [DVec3], shares: &mut impl Shares) {
         let planes = &mut planes[..facets.len()];
-        for (&f, k) in new[..new.len().min(BATCH)].iter().zip(0..) {
+        for k in 0..new.len().min(BATCH) {
+            let f = new[k];
             let facet = &mut facets[f as usize];
             planes[f as usize] = at(&self.corner, k);
             facet.set_corner(self.mark[k] as u32, self.reach[k] as f32);

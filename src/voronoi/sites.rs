@@ -57,6 +57,12 @@ impl<'a> Sites<'a> {
         self.units[site as usize]
     }
 
+    /// As many unit vectors as what they leave, to 24 bits.
+    #[inline(always)]
+    pub fn rows(&self) -> (&'a [DVec3], &'a [[f32; 3]]) {
+        (self.units, &self.rests[..self.units.len()])
+    }
+
     /// What the unit vector of a site leaves, to 24 bits.
     #[inline(always)]
     pub fn rest(&self, site: u32) -> DVec3 {
