@@ -16,7 +16,7 @@
 
 use glam::DVec3;
 
-use super::hull::{ABOVE, BELOW, Facet, Hull, SPECIAL, next};
+use super::hull::{ABOVE, BELOW, Facet, Hull, SPECIAL, mark, next};
 use super::series::arctangent_over;
 use super::sites::Sites;
 use super::spokes::Spoke;
@@ -53,14 +53,14 @@ pub(super) struct Batch {
     squares: Columns,
     cotangents: Columns,
     cosine: Column,
-    /// sin² R, and the least of the squares.
+    /// sin² R, or zero.
     reach: Column,
-    shortest: Column,
     corner: Columns,
-    class: Column<u64>,
-    /// Solid angle and vector moment for each of the sites.
-    solid_angles: Columns,
-    moments: [Columns; 3],
+    /// What is known of the corner, as in a facet, and the limits of a share.
+    mark: Column<u64>,
+    limits: [Column; 2],
+    /// Vector moment and solid angle for each of the sites.
+    sums: [[Column; 4]; 3],
 }
 
 impl Default for Batch {
@@ -74,11 +74,10 @@ impl Default for Batch {
             cotangents: ZERO,
             cosine: ZERO[0],
             reach: ZERO[0],
-            shortest: ZERO[0],
             corner: ZERO,
-            class: [0; BATCH],
-            solid_angles: ZERO,
-            moments: [ZERO; 3],
+            mark: [0; BATCH],
+            limits: [ZERO[0]; 2],
+            sums: [[ZERO[0]; 4]; 3],
         }
     }
 }
@@ -168,10 +167,9 @@ pub(super) struct Share {
     pub spoke: Spoke,
     pub solid_angle: f64,
     pub moment: DVec3,
-    /// sin² of the corner's distance from the site, infinite if doubles are not enough or it is below the horizon.
-    pub reach: f32,
-    /// The square of the facet's shortest edge.
-    pub shortest: f32,
+    /// Of the cell these are the largest: sin² of the corner's distance from the site, infinite if doubles are not enough or it
+    /// is below the horizon; and minus the square of the facet's shortest edge.
+    pub limits: [f32; 2],
 }
 
 /// The cells that facets add to.
@@ -240,11 +238,11 @@ impl<S: Shares> Kernel for AddFacets<'_, S> {
 impl Batch {
     #[inline(always)]
     fn load(&mut self, new: &[u32], facets: &[Facet], sites: Sites<'_>) {
-        for (lane, &f) in (0..BATCH).zip(new) {
-            let facet = &facets[f as usize];
-            for k in 0..3 {
-                set(&mut self.units[k], lane, sites.unit(facet.sites[k]));
-                set(&mut self.rests[k], lane, sites.rest(facet.sites[k]));
+        let (units, rests) = sites.rows();
+        for lane in 0..new.len().min(BATCH) {
+            for (k, site) in facets[new[lane] as usize].sites.into_iter().enumerate() {
+                set(&mut self.units[k], lane, units[site as usize]);
+                set(&mut self.rests[k], lane, DVec3::from_array(rests[site as usize].map(f64::from)));
             }
         }
     }
@@ -273,14 +271,15 @@ impl Batch {
                 is_above = is_good & (up > least);
                 class = if is_long & (up < -least) { BELOW } else { SPECIAL };
             }
-            self.class[k] = if is_above { ABOVE } else { class }.into();
+            self.mark[k] = mark(if is_above { ABOVE } else { class }, shortest).into();
             // Others add nothing.
             let or = |x: f64, other: f64| if is_above { x } else { other };
             let or_zero = |v: DVec3| DVec3::new(or(v.x, 0.0), or(v.y, 0.0), or(v.z, 0.0));
             set(&mut self.squares, k, or_zero(squares));
             set(&mut self.cotangents, k, or_zero(cotangents));
             self.cosine[k] = or(height * over_n, 1.0);
-            (self.reach[k], self.shortest[k]) = (or(reach, 0.0), shortest);
+            self.reach[k] = or(reach, 0.0);
+            (self.limits[0][k], self.limits[1][k]) = (or(reach, f64::INFINITY), -shortest);
         }
     }
 
@@ -319,33 +318,30 @@ impl Batch {
                 (2.0 * area, at(&self.edges[edge], k) * (0.5 * arc))
             };
             let [(at_a, f), (at_b, e), (at_c, d)] = [share(0), share(1), share(2)];
-            set(&mut self.solid_angles, k, DVec3::new(at_b + at_c, at_c + at_a, at_a + at_b));
-            set(&mut self.moments[0], k, -(d + e));
-            set(&mut self.moments[1], k, d - f);
-            set(&mut self.moments[2], k, e + f);
+            let mut set = |site: usize, moment: DVec3, solid_angle: f64| {
+                let [x, y, z, last] = &mut self.sums[site];
+                (x[k], y[k], z[k], last[k]) = (moment.x, moment.y, moment.z, solid_angle);
+            };
+            set(0, -(d + e), at_b + at_c);
+            set(1, d - f, at_c + at_a);
+            set(2, e + f, at_a + at_b);
         }
     }
 
     #[inline(always)]
     fn store(&self, new: &[u32], facets: &mut [Facet], planes: &mut [DVec3], shares: &mut impl Shares) {
-        for (lane, &f) in (0..BATCH).zip(new) {
+        let planes = &mut planes[..facets.len()];
+        for k in 0..new.len().min(BATCH) {
+            let f = new[k];
             let facet = &mut facets[f as usize];
-            planes[f as usize] = at(&self.corner, lane);
-            let (class, shortest) = (self.class[lane] as u32, self.shortest[lane]);
-            let reach = if class == ABOVE { self.reach[lane] as f32 } else { f32::INFINITY };
-            for k in 0..3 {
-                shares.add(
-                    facet.sites[k],
-                    Share {
-                        spoke: 4 * f + next(k as u32) as u32,
-                        solid_angle: self.solid_angles[k][lane],
-                        moment: at(&self.moments[k], lane),
-                        reach,
-                        shortest: shortest as f32,
-                    },
-                );
+            planes[f as usize] = at(&self.corner, k);
+            facet.set_corner(self.mark[k] as u32, self.reach[k] as f32);
+            let limits = self.limits.each_ref().map(|column| column[k] as f32);
+            for (&site, (corner, sums)) in facet.sites.iter().zip((0..).zip(&self.sums)) {
+                let spoke = 4 * f + next(corner) as u32;
+                let [x, y, z, solid_angle] = sums.each_ref().map(|column| column[k]);
+                shares.add(site, Share { spoke, moment: DVec3::new(x, y, z), solid_angle, limits });
             }
-            facet.set_corner(class, self.reach[lane], shortest);
         }
     }
 }

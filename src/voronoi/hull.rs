@@ -62,6 +62,12 @@ const MET: u32 = 1 << 7;
 /// The bits above are the upper ones of the square of the shortest edge as an `f32`.
 const SHORTEST: u32 = 0xffff << 16;
 
+/// What a facet's mark tells of its corner: the class, and the square of the shortest edge.
+#[inline(always)]
+pub(super) fn mark(class: u32, shortest: f64) -> u32 {
+    class | if class == ABOVE { SET } else { 0 } | (shortest as f32).to_bits() & SHORTEST
+}
+
 /// What kind of set the sites are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Shape {
@@ -101,14 +107,11 @@ impl Facet {
         before & MET == 0
     }
 
-    /// Writes down what is known of the corner: the class, sin² of its distance and the square of the shortest edge.
+    /// Writes down what is known of the corner: a `mark`, and sin² of its distance.
     #[inline(always)]
-    pub fn set_corner(&mut self, class: u32, reach: f64, shortest: f64) {
-        self.error = reach as f32;
-        self.mark = self.mark & (FLATS | MET)
-            | class
-            | if class == ABOVE { SET } else { 0 }
-            | (shortest as f32).to_bits() & SHORTEST;
+    pub fn set_corner(&mut self, mark: u32, reach: f32) {
+        self.error = reach;
+        self.mark = self.mark & (FLATS | MET) | mark;
     }
 
     /// Whether its corner is `ABOVE`, `BELOW` or `SPECIAL`.

@@ -10,6 +10,8 @@
 
 use glam::DVec3;
 
+use crate::solid_angle::{Real, dispatch, dispatch::Kernel};
+
 /// Bits of a coordinate on a face.
 const DEPTH: u32 = 18;
 
@@ -26,15 +28,39 @@ const INDEX_BITS: u32 = 28;
 pub(super) fn sort(sites: &[DVec3], keys: &mut Vec<u64>) {
     keys.clear();
     keys.reserve(sites.len());
-    let by_index = (0..).zip(sites);
     if sites.len() < ONE_ROUND {
-        keys.extend(by_index.map(|(index, &site)| curve::<COARSE>(site) << INDEX_BITS | index));
+        dispatch::run(Keys::<COARSE, 0> { sites, keys });
         if sites.len() < VERY_FEW { keys.sort_unstable() } else { sort_by_digits(keys) }
     } else {
-        keys.extend(by_index.map(|(index, &site)| (curve::<DEPTH>(site) >> CUT) << INDEX_BITS | index));
+        dispatch::run(Keys::<DEPTH, CUT> { sites, keys });
         keys.sort_unstable();
     }
 }
+
+/// Appends the keys of sites by a curve of `BITS` a coordinate, of which `CUT` are cut off.
+struct Keys<'a, const BITS: u32, const CUT: u32> {
+    sites: &'a [DVec3],
+    keys: &'a mut Vec<u64>,
+}
+
+impl<const BITS: u32, const CUT: u32> Kernel for Keys<'_, BITS, CUT> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<T: Real>(self) {
+        let mut cells = [0; BATCH];
+        for (sites, batch) in self.sites.chunks(BATCH).zip(0..) {
+            for (cell, &site) in cells.iter_mut().zip(sites) {
+                *cell = cell_of::<BITS>(site);
+            }
+            let by_index = (BATCH as u64 * batch..).zip(cells).take(sites.len());
+            self.keys.extend(by_index.map(|(index, cell)| (place::<BITS>(cell) >> CUT) << INDEX_BITS | index));
+        }
+    }
+}
+
+/// Number of sites that are taken at a time.
+const BATCH: usize = 64;
 
 /// Sorts fewer than `ONE_ROUND` keys of the coarse curve, whose indices ascend, by its lower and then its upper digit.
 ///
@@ -115,30 +141,51 @@ fn hash(index: u32) -> u32 {
     (x ^ x >> 13).wrapping_mul(0xc2b2_ae35)
 }
 
-/// The place of a direction on the curve of `BITS` a coordinate, below 6·4^`BITS`.
-fn curve<const BITS: u32>(site: DVec3) -> u64 {
+/// The cell of a direction: face, and then three bits of x, three bits of y, and so on, of `BITS` a coordinate.
+///
+/// No branch depends on the direction, so that one instruction does several.
+#[inline(always)]
+fn cell_of<const BITS: u32>(site: DVec3) -> u64 {
     let a = site.abs();
-    let (face, s, t, largest) = if a.x >= a.y && a.x >= a.z {
-        (0, site.y, site.z, site.x)
-    } else if a.y >= a.z {
-        (1, site.z, site.x, site.y)
-    } else {
-        (2, site.x, site.y, site.z)
+    let (is_x, is_y) = ((a.x >= a.y) & (a.x >= a.z), a.y >= a.z);
+    let choose = |x: f64, y: f64, z: f64| {
+        let other = if is_y { y } else { z };
+        if is_x { x } else { other }
     };
-    let face = 2 * face + u64::from(largest < 0.0);
-    let cell = |x: f64| ((0.5 + 0.5 * (x / largest.abs())) * f64::from((1u32 << BITS) - 1)) as u32;
-    face << (2 * BITS) | hilbert::<BITS>(cell(s), cell(t))
+    let (s, t) = (choose(site.y, site.z, site.x), choose(site.z, site.x, site.y));
+    let largest = choose(site.x, site.y, site.z);
+    let axis = if is_y { 1 } else { 2 };
+    let face = (if is_x { 0 } else { axis }) << 1 | largest.to_bits() >> 63;
+    let coordinate = |x: f64| whole((0.5 + 0.5 * (x / largest.abs())) * f64::from((1u32 << BITS) - 1));
+    let (x, y) = (coordinate(s), coordinate(t));
+    (0..BITS / LEVELS).fold(face << (2 * BITS), |cell, step| cell | digits(x, y, step) << (2 * LEVELS * step))
 }
 
-/// The place of the cell (x, y) on the Hilbert curve of 4^`BITS` cells.
-#[inline]
-fn hilbert<const BITS: u32>(x: u32, y: u32) -> u64 {
-    let (mut place, mut turn) = (0, 0);
+/// A number from 0 to below 2³², rounded downwards.
+#[inline(always)]
+fn whole(x: f64) -> u64 {
+    // To the nearest one, which is in the lower bits then.
+    let nearest = x + TWO_52;
+    (nearest.to_bits() - u64::from(nearest - TWO_52 > x)) & u64::from(u32::MAX)
+}
+
+const TWO_52: f64 = (1u64 << 52) as f64;
+
+/// Three bits of `x` and three of `y`.
+#[inline(always)]
+fn digits(x: u64, y: u64, step: u32) -> u64 {
+    let digit = |x: u64| x >> (LEVELS * step) & 7;
+    digit(x) << LEVELS | digit(y)
+}
+
+/// The place of a cell on the curve of `BITS` a coordinate, below 6·4^`BITS`.
+#[inline(always)]
+fn place<const BITS: u32>(cell: u64) -> u64 {
+    let (mut place, mut turn) = (cell >> (2 * BITS), 0);
     for step in (0..BITS / LEVELS).rev() {
-        let digits = (x >> (LEVELS * step) & 7) << 3 | (y >> (LEVELS * step) & 7);
-        let entry = u32::from(CURVE[(turn << 6 | digits) as usize]);
-        place = place << 6 | u64::from(entry >> 2);
-        turn = entry & 3;
+        let entry = u64::from(CURVE[(turn | cell >> (2 * LEVELS * step) & 63) as usize]);
+        place = place << 6 | entry >> 8;
+        turn = entry & 0b1100_0000;
     }
     place
 }
@@ -146,10 +193,11 @@ fn hilbert<const BITS: u32>(x: u32, y: u32) -> u64 {
 /// Levels of the curve in one step.
 const LEVELS: u32 = 3;
 
-/// By the turn of the curve and three bits of x and y: their place, and then the turn of the curve in that cell.
+/// By the turn of the curve and three bits of x and y: their place, and then the turn of the curve in that cell and six
+/// bits for the next of these.
 ///
 /// A turn has two bits: whether both coordinates are counted backwards, and whether they are exchanged.
-const CURVE: [u8; 256] = {
+const CURVE: [u16; 256] = {
     let mut table = [0; 256];
     let mut index = 0;
     while index < 256 {
@@ -163,7 +211,7 @@ const CURVE: [u8; 256] = {
             flip ^= right & (up ^ 1);
             swap ^= up ^ 1;
         }
-        table[index] = (place << 2 | flip << 1 | swap) as u8;
+        table[index] = (place << 8 | flip << 7 | swap << 6) as u16;
         index += 1;
     }
     table
@@ -206,9 +254,57 @@ mod tests {
         }
     }
 
+    /// The place of the cell (x, y) of 4^`BITS` on the curve of a face.
+    fn hilbert<const BITS: u32>(x: u64, y: u64) -> u64 {
+        place::<BITS>((0..BITS / LEVELS).map(|step| digits(x, y, step) << (2 * LEVELS * step)).sum())
+    }
+
+    /// The key of a site, face by face.
+    fn key<const BITS: u32>(site: DVec3, index: u64) -> u64 {
+        let [x, y, z] = site.to_array();
+        let (face, s, t, largest) = if x.abs() >= y.abs().max(z.abs()) {
+            (0, y, z, x)
+        } else if y.abs() >= z.abs() {
+            (2, z, x, y)
+        } else {
+            (4, x, y, z)
+        };
+        let face = face + u64::from(largest < 0.0);
+        let cell = |x: f64| ((0.5 + 0.5 * (x / largest.abs())) * ((1 << BITS) - 1) as f64) as u64;
+        let place = face << (2 * BITS) | hilbert::<BITS>(cell(s), cell(t));
+        if BITS == DEPTH { place >> CUT << INDEX_BITS | index } else { place << INDEX_BITS | index }
+    }
+
+    #[test]
+    fn keys_are_those_of_one_site_at_a_time() {
+        let mut sites: Vec<_> = (0..3000)
+            .map(|k| {
+                let [x, y, z] = [0.7, 1.9, 3.1].map(|turn| (turn * f64::from(k)).sin());
+                DVec3::new(x, y, z) * 2f64.powi(k % 2000 - 1000)
+            })
+            .collect();
+        // Edges and corners of the faces, and borders of cells.
+        let part = |k: i32| f64::from(k - 63) / 63.0;
+        sites.extend((0..127).flat_map(|k| (0..127).map(move |l| (part(k), part(l)))).flat_map(|(s, t)| {
+            [DVec3::new(1.0, s, t), DVec3::new(s, -1.0, t), DVec3::new(-0.0, -s.abs(), 1.0), DVec3::new(s, t, -1.0)]
+        }));
+        for count in (1..3 * BATCH).chain([sites.len()]) {
+            let (sites, mut keys) = (&sites[..count], [const { Vec::new() }; 4]);
+            let [fast, plain, fine, plain_fine] = &mut keys;
+            dispatch::run(Keys::<COARSE, 0> { sites, keys: fast });
+            Keys::<COARSE, 0> { sites, keys: plain }.run::<f64>();
+            dispatch::run(Keys::<DEPTH, CUT> { sites, keys: fine });
+            Keys::<DEPTH, CUT> { sites, keys: plain_fine }.run::<f64>();
+            let want =
+                |key: fn(DVec3, u64) -> u64| -> Vec<u64> { sites.iter().zip(0..).map(|(&v, k)| key(v, k)).collect() };
+            assert_eq!((&*fast, &*plain), (&want(key::<COARSE>), &want(key::<COARSE>)));
+            assert_eq!((&*fine, &*plain_fine), (&want(key::<DEPTH>), &want(key::<DEPTH>)));
+        }
+    }
+
     #[test]
     fn the_curve_steps_to_the_next_cell_and_meets_all() {
-        let side = 1 << 6;
+        let side = 1u64 << 6;
         let mut cells = vec![None; (side * side) as usize];
         let coarse = DEPTH - 6;
         for x in 0..side {

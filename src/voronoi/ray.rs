@@ -76,21 +76,47 @@ impl Ray {
 /// Unit vectors whose cosine is below this, which are 1/4 apart, have a difference that is right to 2⁻⁹⁶ of itself.
 const FAR: f64 = 1.0 - 1.0 / 32.0;
 
+/// The unit vector along `v` as a sum of two, and whether `v` has a largest component from 2⁻¹⁰²² to below 2¹⁰²³; if not, it
+/// means nothing. The same bits as in a ray, without a branch.
+#[inline(always)]
+pub(super) fn ordinary_unit_vector(v: DVec3) -> (DVec3, DVec3, bool) {
+    let [x, y, z] = v.abs().to_array();
+    let larger = if x > y { x } else { y };
+    let largest = if larger > z { larger } else { z };
+    // 2⁻ᵉ for the largest component from 2ᵉ to below 2ᵉ⁺¹.
+    let factor = f64::from_bits(POWERS.wrapping_sub(largest.to_bits() & EXPONENTS));
+    let (unit, rest) = unit_vector(v * factor + DVec3::ZERO);
+    (unit, rest, (largest >= f64::MIN_POSITIVE) & (largest < LARGE))
+}
+
+/// The bits of a double's exponent, and their sum for 2ᵉ and 2⁻ᵉ.
+const EXPONENTS: u64 = 0x7ff << 52;
+const POWERS: u64 = 0x7fe << 52;
+
+/// 2¹⁰²³.
+const LARGE: f64 = f64::from_bits(POWERS);
+
 /// The unit vector along `v` as a sum of two, for largest components from 1 to 2.
 ///
 /// With t + r = v y exactly, y near 1/|v|.
-#[inline]
+#[inline(always)]
 fn unit_vector(v: DVec3) -> (DVec3, DVec3) {
     let square = v.length_squared();
-    // Of unit vectors, half or all of `v` will do without a root.
-    let (t, r) = if (square - 4.0).abs() < NEARLY {
-        (0.5 * v, DVec3::ZERO)
-    } else if (square - 1.0).abs() < NEARLY {
-        (v, DVec3::ZERO)
-    } else {
-        product3(v, 1.0 / square.sqrt())
-    };
-    nearly_unit(t, r)
+    // Of unit vectors, half or all of `v` will do, which leave nothing.
+    let (is_half, is_all) = ((square - 4.0).abs() < NEARLY, (square - 1.0).abs() < NEARLY);
+    let inverse = 1.0 / square.sqrt();
+    let (t, r) = product3(
+        v,
+        if is_half {
+            0.5
+        } else if is_all {
+            1.0
+        } else {
+            inverse
+        },
+    );
+    let left = |r: f64| if is_half | is_all { 0.0 } else { r };
+    nearly_unit(t, DVec3::new(left(r.x), left(r.y), left(r.z)))
 }
 
 /// 2⁻⁴⁹: a few units in the last place of 4.

@@ -3,8 +3,9 @@
 use glam::DVec3;
 
 use super::order;
-use super::ray::Ray;
-use super::twofold::{Twofold3, nearly_unit};
+use super::ray::{Ray, ordinary_unit_vector};
+use super::twofold::Twofold3;
+use crate::solid_angle::{Real, dispatch, dispatch::Kernel};
 
 /// What the work on each site needs often: unit vectors. The rays themselves are made anew where it takes them.
 #[derive(Clone, Copy, Debug)]
@@ -18,6 +19,9 @@ pub(super) struct Sites<'a> {
 /// Number of sites that are loaded at a time.
 const BATCH: usize = 64;
 
+/// One number of each site of a batch.
+type Column<T = f64> = [T; BATCH];
+
 impl<'a> Sites<'a> {
     /// The `given` sites in the order of `keys`, with unit vectors of which `units` are the doubles and `rests` the rest.
     pub fn new(given: &'a [DVec3], keys: &'a [u64], units: &'a mut Vec<DVec3>, rests: &'a mut Vec<[f32; 3]>) -> Self {
@@ -25,18 +29,7 @@ impl<'a> Sites<'a> {
         rests.clear();
         units.reserve(given.len());
         rests.reserve(given.len());
-        // Far apart in memory: many loads at a time, before the work on each.
-        let mut batch = [DVec3::ZERO; BATCH];
-        for keys in keys.chunks(BATCH) {
-            for (site, &key) in batch.iter_mut().zip(keys) {
-                *site = given[order::index(key)];
-            }
-            for &site in &batch[..keys.len()] {
-                let (unit, rest) = unit_vector(site);
-                units.push(unit);
-                rests.push(rest.to_array().map(|x| x as f32));
-            }
-        }
+        dispatch::run(Load { given, keys, units, rests });
         Self { given, keys, units, rests }
     }
 
@@ -62,6 +55,12 @@ impl<'a> Sites<'a> {
     #[inline(always)]
     pub fn unit(&self, site: u32) -> DVec3 {
         self.units[site as usize]
+    }
+
+    /// As many unit vectors as what they leave, to 24 bits.
+    #[inline(always)]
+    pub fn rows(&self) -> (&'a [DVec3], &'a [[f32; 3]]) {
+        (self.units, &self.rests[..self.units.len()])
     }
 
     /// What the unit vector of a site leaves, to 24 bits.
@@ -92,39 +91,108 @@ impl<'a> Sites<'a> {
     }
 }
 
-/// The unit vector of a site, as in its ray, and in the same bits; that of a unit vector takes no scaling.
-#[inline(always)]
-fn unit_vector(site: DVec3) -> (DVec3, DVec3) {
-    if (site.length_squared() - 1.0).abs() < NEARLY {
-        return nearly_unit(site + DVec3::ZERO, DVec3::ZERO);
-    }
-    let ray = Ray::new(site);
-    (ray.unit, ray.rest)
+/// Appends the unit vectors of the `given` sites in the order of `keys` and what they leave.
+struct Load<'a> {
+    given: &'a [DVec3],
+    keys: &'a [u64],
+    units: &'a mut Vec<DVec3>,
+    rests: &'a mut Vec<[f32; 3]>,
 }
 
-/// 2⁻⁵¹: then twice the vector is within a ray's bound for such vectors, too.
-const NEARLY: f64 = 1.0 / (1u64 << 51) as f64;
+impl Kernel for Load<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<T: Real>(self) {
+        let Self { given, keys, units, rests } = self;
+        let (mut columns, mut rest) = ([[1.0; BATCH]; 3], [[0.0; BATCH]; 3]);
+        for keys in keys.chunks(BATCH) {
+            // Far apart in memory: many loads at a time, before the work on each.
+            let [x, y, z] = &mut columns;
+            for (((x, y), z), &key) in x.iter_mut().zip(y).zip(z).zip(keys) {
+                (*x, *y, *z) = given[order::index(key)].into();
+            }
+            let count = keys.len().next_multiple_of(4);
+            let are_ordinary = set_unit_vectors(&mut columns, &mut rest, count);
+            let start = units.len();
+            units.extend((0..BATCH).zip(keys).map(|(k, _)| DVec3::new(columns[0][k], columns[1][k], columns[2][k])));
+            rests.extend((0..BATCH).zip(keys).map(|(k, _)| [rest[0][k], rest[1][k], rest[2][k]]));
+            if !are_ordinary {
+                for ((unit, rest), &key) in units[start..].iter_mut().zip(&mut rests[start..]).zip(keys) {
+                    let ray = Ray::new(given[order::index(key)]);
+                    (*unit, *rest) = (ray.unit, ray.rest.to_array().map(|x| x as f32));
+                }
+            }
+        }
+    }
+}
+
+/// The unit vectors of some sites in place of these and what they leave; false if some of them have to be made from rays.
+#[inline(always)]
+fn set_unit_vectors(sites: &mut [Column; 3], rests: &mut [Column<f32>; 3], count: usize) -> bool {
+    let ([x, y, z], [p, q, r]) = (sites, rests);
+    let mut are_ordinary = true;
+    for k in 0..count.min(BATCH) {
+        let (unit, rest, is_ordinary) = ordinary_unit_vector(DVec3::new(x[k], y[k], z[k]));
+        are_ordinary &= is_ordinary;
+        (x[k], y[k], z[k]) = unit.into();
+        (p[k], q[k], r[k]) = (rest.x as f32, rest.y as f32, rest.z as f32);
+    }
+    are_ordinary
+}
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    /// The unit vectors of sites, by the fastest arithmetic and by the other.
+    fn unit_vectors(given: &[DVec3]) -> [(Vec<DVec3>, Vec<[f32; 3]>); 2] {
+        let keys: Vec<u64> = (0..given.len() as u64).collect();
+        let [mut fast, mut plain] = [const { (Vec::new(), Vec::new()) }; 2];
+        Sites::new(given, &keys, &mut fast.0, &mut fast.1);
+        Load { given, keys: &keys, units: &mut plain.0, rests: &mut plain.1 }.run::<f64>();
+        [fast, plain]
+    }
+
+    fn assert_bits_of_rays(given: &[DVec3]) {
+        for (units, rests) in unit_vectors(given) {
+            assert_eq!((units.len(), rests.len()), (given.len(), given.len()));
+            for ((&site, unit), rest) in given.iter().zip(units).zip(rests) {
+                let ray = Ray::new(site);
+                let bits = |v: DVec3| v.to_array().map(f64::to_bits);
+                assert_eq!(bits(unit), bits(ray.unit), "{site}");
+                assert_eq!(rest.map(f32::to_bits), ray.rest.to_array().map(|x| (x as f32).to_bits()), "{site}");
+            }
+        }
+    }
+
     #[test]
     fn unit_vectors_have_the_bits_of_their_rays() {
         let step = f64::EPSILON / 2.0;
-        let mut short_cuts = 0;
-        for k in 0..2000 {
+        let around = |k: i32| {
             let (s, t) = (f64::from(k) * 0.37).sin_cos();
             let v = DVec3::new(s * 0.6, t * 0.6, 0.8 + f64::from(k % 7 - 3) * step);
-            for v in
-                [v, 4.0 * v, 0.25 * v, DVec3::new(s, t, 0.0), DVec3::new(-0.0, 1.0, s * step), DVec3::new(t, 0.0, -s)]
-            {
-                let (ray, (unit, rest)) = (Ray::new(v), unit_vector(v));
-                let bits = |v: DVec3| v.to_array().map(f64::to_bits);
-                assert_eq!((bits(unit), bits(rest)), (bits(ray.unit), bits(ray.rest)), "{v}");
-                short_cuts += usize::from((v.length_squared() - 1.0).abs() < NEARLY);
-            }
+            let w = DVec3::new(s, s * t, t - s);
+            [v, DVec3::new(s, t, 0.0), DVec3::new(-0.0, 1.0, s * step), DVec3::new(t, 0.0, -s), 4.0 * v, w, 1e-300 * w]
+        };
+        let given: Vec<_> = (0..2000).flat_map(around).collect();
+        let sides = [1e-150, 1e-155, 1e-160, 5e-324];
+        let sides: Vec<_> =
+            sides.into_iter().flat_map(|x| [DVec3::new(x, 1.0, -0.3 * x), DVec3::new(1.0, x, -1.0)]).collect();
+        // The last batch has each size.
+        for count in (1..=2 * BATCH).chain([given.len()]) {
+            assert_bits_of_rays(&given[..count]);
         }
-        assert!(short_cuts > 4000, "{short_cuts} sites took the short cut");
+        // The largest component has each exponent: only the first and the last ones take a ray.
+        let scaled = |e: i32, v: DVec3| (v * 2f64.powi(e / 2)) * 2f64.powi(e - e / 2);
+        for e in -1074..1023 {
+            let site = scaled(e, DVec3::new(0.3, -0.2, 1.0));
+            let (.., is_ordinary) = ordinary_unit_vector(site);
+            assert_eq!(is_ordinary, e >= -1022, "{site}");
+            assert_bits_of_rays(&[site]);
+        }
+        let last = DVec3::new(1.0, -f64::MAX, f64::MAX / 3.0);
+        assert!(!ordinary_unit_vector(last).2);
+        assert_bits_of_rays(&[&given[..100], &sides, &[last], &given[..100]].concat());
     }
 }

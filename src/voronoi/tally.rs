@@ -11,8 +11,6 @@ use super::spokes::{Spoke, may_be_thin};
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tallies {
     tallies: Vec<Tally>,
-    /// A corner of each cell.
-    firsts: Vec<Spoke>,
 }
 
 /// The sums of one cell.
@@ -20,26 +18,26 @@ pub(super) struct Tallies {
 pub(super) struct Tally {
     pub moment: DVec3,
     pub solid_angle: f64,
-    /// Largest sin² of the distance of a corner, infinite if doubles are not enough for one or it is below the horizon.
-    reach: f32,
-    /// The square of the shortest edge of its facets.
-    shortest: f32,
+    /// The largest of each of its shares' limits.
+    limits: [f32; 2],
+    /// A corner of the cell.
+    first: Spoke,
 }
 
 impl Tally {
-    const NOTHING: Self = Self { moment: DVec3::ZERO, solid_angle: 0.0, reach: 0.0, shortest: f32::INFINITY };
+    const NOTHING: Self = Self { moment: DVec3::ZERO, solid_angle: 0.0, limits: [0.0, f32::NEG_INFINITY], first: 0 };
 
     /// Whether there is no such cell.
     #[inline(always)]
     pub fn is_nothing(&self) -> bool {
-        self.shortest == f32::INFINITY
+        self.limits[1] == f32::NEG_INFINITY
     }
 
     /// Whether the sums are the measures of the cell.
     #[inline(always)]
     pub fn is_ordinary(&self) -> bool {
-        self.reach < f32::INFINITY
-            && !(may_be_thin(self.reach, self.shortest) && is_thin(self.solid_angle, self.reach.into()))
+        let [reach, least] = self.limits;
+        reach < f32::INFINITY && !(may_be_thin(reach, -least) && is_thin(self.solid_angle, reach.into()))
     }
 }
 
@@ -48,13 +46,13 @@ impl Tallies {
     pub fn reset(&mut self, sites: usize) {
         self.tallies.clear();
         self.tallies.resize(sites, Tally::NOTHING);
-        self.firsts.resize(sites, 0);
     }
 
     /// The sums of the cell of a site, and a corner of it.
     #[inline(always)]
     pub fn get(&self, site: u32) -> (Tally, Spoke) {
-        (self.tallies[site as usize], self.firsts[site as usize])
+        let tally = self.tallies[site as usize];
+        (tally, tally.first)
     }
 }
 
@@ -64,8 +62,8 @@ impl Shares for Tallies {
         let tally = &mut self.tallies[site as usize];
         tally.moment += share.moment;
         tally.solid_angle += share.solid_angle;
-        tally.reach = if share.reach > tally.reach { share.reach } else { tally.reach };
-        tally.shortest = if share.shortest < tally.shortest { share.shortest } else { tally.shortest };
-        self.firsts[site as usize] = share.spoke;
+        let larger = |k: usize| if share.limits[k] > tally.limits[k] { share.limits[k] } else { tally.limits[k] };
+        tally.limits = [larger(0), larger(1)];
+        tally.first = share.spoke;
     }
 }

@@ -17,7 +17,7 @@ pub(super) struct Twofold {
 }
 
 /// `a + b`, exactly.
-#[inline]
+#[inline(always)]
 fn sum(a: f64, b: f64) -> Twofold {
     let hi = a + b;
     let t = hi - a;
@@ -32,7 +32,7 @@ fn ordered_sum(a: f64, b: f64) -> Twofold {
 }
 
 /// `a` as the sum of two doubles of 26 bits.
-#[inline]
+#[inline(always)]
 fn split(a: f64) -> (f64, f64) {
     let t = 134_217_729.0 * a; // 2²⁷ + 1
     let high = t - (t - a);
@@ -40,7 +40,7 @@ fn split(a: f64) -> (f64, f64) {
 }
 
 /// `a b`, exactly.
-#[inline]
+#[inline(always)]
 fn product(a: f64, b: f64) -> Twofold {
     let hi = a * b;
     let ((ah, al), (bh, bl)) = (split(a), split(b));
@@ -48,21 +48,21 @@ fn product(a: f64, b: f64) -> Twofold {
 }
 
 /// The components of `v` times `y`, as exact sums of two.
-#[inline]
+#[inline(always)]
 pub(super) fn product3(v: DVec3, y: f64) -> (DVec3, DVec3) {
     let [x, y, z] = v.to_array().map(|component| product(component, y));
     (DVec3::new(x.hi, y.hi, z.hi), DVec3::new(x.lo, y.lo, z.lo))
 }
 
 /// `a + b` as a sum of two whose first is that sum rounded, for components of `b` far below those of `a` or zeros of `a`.
-#[inline]
+#[inline(always)]
 fn ordered_sum3(a: DVec3, b: DVec3) -> (DVec3, DVec3) {
     let hi = a + b;
     (hi, b - (hi - a))
 }
 
 /// |v|² − 1 to about 2⁻¹⁰⁴, for lengths that are right to a few units in the last place.
-#[inline]
+#[inline(always)]
 fn length_defect(v: DVec3) -> f64 {
     let [x, y, z] = v.to_array().map(|component| product(component, component));
     let s = sum(x.hi, y.hi);
@@ -194,7 +194,7 @@ impl Twofold3 {
 /// The unit vector along t + r, whose length is right to a few units in the last place, as a sum of two.
 ///
 /// With E = |t + r|² − 1, of some 2⁻⁵¹: (t + r)(1 − E/2 + 3E²/8).
-#[inline]
+#[inline(always)]
 pub(super) fn nearly_unit(t: DVec3, r: DVec3) -> (DVec3, DVec3) {
     let excess = length_defect(t) + 2.0 * t.dot(r);
     ordered_sum3(t, r - t * (0.5 * excess - 0.375 * excess * excess))
