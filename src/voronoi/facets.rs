@@ -20,6 +20,7 @@ use super::hull::{ABOVE, BELOW, Facet, Hull, SPECIAL, mark, next};
 use super::series::arctangent_over;
 use super::sites::Sites;
 use super::spokes::Spoke;
+use super::threads;
 use crate::solid_angle::{Real, dispatch, dispatch::Kernel};
 
 /// Facets whose largest angle has a smaller sine than this are not for doubles.
@@ -44,7 +45,7 @@ type Columns = [Column; 3];
 
 /// Some facets.
 #[derive(Clone, Debug)]
-pub(super) struct Batch {
+struct Batch {
     /// Of each of the three sites the unit vector and its rest.
     units: [Columns; 3],
     rests: [Columns; 3],
@@ -177,61 +178,95 @@ pub(super) trait Shares {
     fn add(&mut self, site: u32, share: Share);
 }
 
-/// Computes the corners of the facets `new` in the place of their planes, marks what is known of them, and adds to `shares`
-/// what those of class `ABOVE` add to the cells of their sites; nothing for others.
-pub(super) fn add_facets(
-    batch: &mut Batch,
-    new: &[u32],
-    hull: &mut Hull,
-    sites: Sites<'_>,
-    pole: Option<DVec3>,
-    shares: &mut impl Shares,
-) {
-    dispatch::run(AddFacets { batch, new, hull, sites, pole, shares });
+/// Batches to be computed side by side, and to be used again.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Batches {
+    batches: Vec<Batch>,
+    /// The facets of all batches, where they are in the order in which they lie.
+    new: Vec<u32>,
 }
 
-/// The same for all facets of the hull, in the order in which they lie.
-pub(super) fn add_all_facets(
-    batch: &mut Batch,
-    hull: &mut Hull,
-    sites: Sites<'_>,
-    pole: Option<DVec3>,
-    shares: &mut impl Shares,
-) {
-    let mut left = 0..hull.facets.len() as u32;
-    while !left.is_empty() {
-        let mut new = [0; BATCH];
-        let count = new.iter_mut().zip(&mut left).map(|(place, f)| *place = f).count();
-        add_facets(batch, &new[..count], hull, sites, pole, shares);
+impl Batches {
+    /// Makes as many as so many sites are worth.
+    pub fn reset(&mut self, sites: usize) {
+        self.batches.resize_with(threads::parts(sites), Batch::default);
+    }
+
+    /// Computes the corners of the facets `new` in the place of their planes, marks what is known of them, and adds to `shares`
+    /// what those of class `ABOVE` add to the cells of their sites; nothing for others.
+    pub fn add(
+        &mut self,
+        new: &[u32],
+        hull: &mut Hull,
+        sites: Sites<'_>,
+        pole: Option<DVec3>,
+        shares: &mut impl Shares,
+    ) {
+        let part = |number: usize| new[BATCH * number..].chunks(BATCH).next().unwrap_or_default();
+        for first in (0..new.len().div_ceil(BATCH)).step_by(self.batches.len()) {
+            let count = self.batches.len().min(new.len().div_ceil(BATCH) - first);
+            let (batches, facets) = (&mut self.batches[..count], &hull.facets[..]);
+            threads::each_part(batches, |number, batch| {
+                dispatch::run(Compute { batch, new: part(first + number), facets, sites, pole });
+            });
+            for (number, batch) in batches.iter().enumerate() {
+                dispatch::run(Store { batch, new: part(first + number), hull, shares });
+            }
+        }
+    }
+
+    /// The same for all facets of the hull, in the order in which they lie.
+    pub fn add_all(&mut self, hull: &mut Hull, sites: Sites<'_>, pole: Option<DVec3>, shares: &mut impl Shares) {
+        let count = hull.facets.len();
+        let mut new = core::mem::take(&mut self.new);
+        for start in (0..count).step_by(BATCH * self.batches.len()) {
+            new.clear();
+            new.extend(start as u32..count.min(start + BATCH * self.batches.len()) as u32);
+            self.add(&new, hull, sites, pole, shares);
+        }
+        self.new = new;
     }
 }
 
-struct AddFacets<'a, S> {
+struct Compute<'a> {
     batch: &'a mut Batch,
     new: &'a [u32],
-    hull: &'a mut Hull,
+    facets: &'a [Facet],
     sites: Sites<'a>,
     pole: Option<DVec3>,
-    shares: &'a mut S,
 }
 
-impl<S: Shares> Kernel for AddFacets<'_, S> {
+impl Kernel for Compute<'_> {
     type Output = ();
 
     #[inline(always)]
     fn run<T: Real>(self) {
-        let Self { batch, new, hull, sites, pole, shares } = self;
-        for new in new.chunks(BATCH) {
-            batch.load(new, &hull.facets, sites);
-            let count = new.len().next_multiple_of(4).min(BATCH);
-            match pole {
-                Some(pole) => batch.compute_corners::<true>(count, pole),
-                None => batch.compute_corners::<false>(count, DVec3::ZERO),
-            }
-            batch.reach[new.len()..count].fill(0.0);
-            batch.compute_shares(count);
-            batch.store(new, &mut hull.facets, &mut hull.planes, shares);
+        let Self { batch, new, facets, sites, pole } = self;
+        batch.load(new, facets, sites);
+        let count = new.len().next_multiple_of(4).min(BATCH);
+        match pole {
+            Some(pole) => batch.compute_corners::<true>(count, pole),
+            None => batch.compute_corners::<false>(count, DVec3::ZERO),
         }
+        batch.reach[new.len()..count].fill(0.0);
+        batch.compute_shares(count);
+    }
+}
+
+struct Store<'a, S> {
+    batch: &'a Batch,
+    new: &'a [u32],
+    hull: &'a mut Hull,
+    shares: &'a mut S,
+}
+
+impl<S: Shares> Kernel for Store<'_, S> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<T: Real>(self) {
+        let Hull { facets, planes, .. } = self.hull;
+        self.batch.store(self.new, facets, planes, self.shares);
     }
 }
 

@@ -96,6 +96,7 @@ mod sites;
 mod spokes;
 mod start;
 mod tally;
+mod threads;
 mod twofold;
 mod validate;
 
@@ -108,6 +109,9 @@ pub use locator::{Locator, LocatorError};
 pub use measure::{PLANE_ERROR, RELATIVE_ERROR, SOLID_ANGLE_ERROR};
 pub use measures::Measures;
 pub use validate::{CORNER_ERROR, Defect, ERROR_PER_EDGE};
+
+/// Of fewer sites all measures are in the cache.
+const MANY: usize = 1 << 15;
 
 /// The Voronoi diagram of `sites` on the whole sphere; its cells sum to 4π.
 ///

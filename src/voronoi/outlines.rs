@@ -6,10 +6,9 @@
 
 use glam::DVec3;
 
-use super::HORIZON;
 use super::clip::{Cell, View};
 use super::diagram::{Diagram, NO_VERTEX, Record};
-use super::facets::{self, Batch, Share, Shares};
+use super::facets::{Batches, Share, Shares};
 use super::horizon::{Horizon, crossing};
 use super::hull::{ABOVE, BELOW, Facet, Hull, SET, SPECIAL, Shape};
 use super::measure::{Measure, is_thin};
@@ -19,6 +18,7 @@ use super::shared::Shared;
 use super::sites::Sites;
 use super::spokes::{Known, STEPS, Spoke, Spokes, facet, neighbor};
 use super::tally::Tallies;
+use super::{HORIZON, MANY};
 use crate::solid_angle::dispatch::prefetch;
 
 /// What is to be known of the cells.
@@ -34,7 +34,7 @@ pub(super) enum Want {
 pub(super) struct Outlines {
     /// Of some cells at a time.
     spokes: Spokes,
-    batch: Box<Batch>,
+    batches: Batches,
     shared: Shared,
     /// Of one cell.
     edges: Vec<Edge>,
@@ -116,6 +116,7 @@ impl Outlines {
         let edges = (4 * hull.facets.len()).max(2 * hull.ring.len());
         self.shared.reset(hull.facets.len(), if pole.is_some() { edges } else { 0 });
         set_owners(&hull.twins, sites, diagram);
+        self.batches.reset(sites.len());
         let mut walk = Walk { hull, sites, pole: pole.as_ref(), diagram };
         match (shape, want) {
             (Shape::Point, _) => {
@@ -140,7 +141,7 @@ impl Outlines {
         let mut tallies = core::mem::take(&mut self.tallies);
         tallies.reset(walk.sites.len());
         let Walk { hull, sites, pole, .. } = walk;
-        facets::add_all_facets(&mut self.batch, hull, *sites, pole.map(|pole| pole.unit), &mut tallies);
+        self.batches.add_all(hull, *sites, pole.map(|pole| pole.unit), &mut tallies);
         for site in 0..walk.sites.len() as u32 {
             let (tally, first) = tallies.get(site);
             if tally.is_nothing() {
@@ -166,7 +167,7 @@ impl Outlines {
         if walk.sites.len() < MANY {
             let Walk { hull, sites, diagram, .. } = walk;
             let shares = &mut ByName { sites: *sites, diagram };
-            facets::add_all_facets(&mut self.batch, hull, *sites, walk.pole.map(|pole| pole.unit), shares);
+            self.batches.add_all(hull, *sites, walk.pole.map(|pole| pole.unit), shares);
             self.add_cells_in_turn::<false>(walk);
         } else {
             self.add_cells_in_turn::<true>(walk);
@@ -192,7 +193,7 @@ impl Outlines {
                 let Walk { hull, sites, pole, diagram } = walk;
                 let shares = &mut ByName { sites: *sites, diagram };
                 let pole = pole.map(|pole| pole.unit);
-                facets::add_facets(&mut self.batch, self.spokes.met(), hull, *sites, pole, shares);
+                self.batches.add(self.spokes.met(), hull, *sites, pole, shares);
             }
             for cell in 0..count {
                 if !self.add_ordinary_cell(cell, walk) {
@@ -456,8 +457,5 @@ fn set_owners(twins: &[(u32, u32)], sites: Sites<'_>, diagram: &mut Diagram) {
         diagram.owners[sites.index(site)] = owner;
     }
 }
-
-/// Of fewer sites the measures are in the cache whatever the order.
-const MANY: usize = 1 << 15;
 
 const ABOVE_AND_BELOW: u32 = ABOVE | BELOW;

@@ -27,15 +27,17 @@ fn every_processor_gives_the_same_bits() {
     for count in COUNTS {
         for pole in [None, Some(DVec3::new(0.6, 0.0, 0.8))] {
             with_hull(count, |mut hull, sites| {
-                let new: Vec<u32> = (0..hull.facets.len() as u32).collect();
-                let (mut other, mut batch) = (hull.clone(), Batch::default());
+                let (mut other, mut batches) = (hull.clone(), Batches::default());
                 let mut diagrams = [Diagram::default(), Diagram::default()];
                 diagrams.iter_mut().for_each(|diagram| diagram.reset(pole, count));
                 let [diagram, plain] = &mut diagrams;
-                let (batch, new) = (&mut batch, &new[..]);
-                add_facets(batch, new, &mut hull, sites, pole, &mut ByName { sites, diagram });
-                let shares = &mut ByName { sites, diagram: plain };
-                AddFacets { batch, new, hull: &mut other, sites, pole, shares }.run::<f64>();
+                batches.reset(count);
+                batches.add_all(&mut hull, sites, pole, &mut ByName { sites, diagram });
+                let (batch, shares) = (&mut batches.batches[0], &mut ByName { sites, diagram: plain });
+                for new in (0..other.facets.len() as u32).collect::<Vec<_>>().chunks(BATCH) {
+                    Compute { batch, new, facets: &other.facets, sites, pole }.run::<f64>();
+                    Store { batch, new, hull: &mut other, shares }.run::<f64>();
+                }
                 let bits =
                     |v: &[DVec3]| -> Vec<[u64; 3]> { v.iter().map(|v| v.to_array().map(f64::to_bits)).collect() };
                 assert_eq!(bits(&hull.planes), bits(&other.planes), "{count} {pole:?}");
@@ -74,14 +76,15 @@ fn long_triangles_are_the_same_from_each_of_their_sites() {
 fn shares_of_a_facet_sum_to_its_solid_angle_and_its_corner_is_as_far_from_all_sites() {
     for count in COUNTS {
         with_hull(count, |mut hull, sites| {
-            let (mut batch, mut good, mut diagram) = (Batch::default(), 0, Diagram::default());
+            let (mut batches, mut good, mut diagram) = (Batches::default(), 0, Diagram::default());
+            batches.reset(0);
             diagram.reset(None, count);
             let tested = hull.facets.len().min(10_000);
             for f in 0..tested as u32 {
-                add_facets(&mut batch, &[f], &mut hull, sites, None, &mut ByName { sites, diagram: &mut diagram });
+                batches.add(&[f], &mut hull, sites, None, &mut ByName { sites, diagram: &mut diagram });
                 let facet = hull.facets[f as usize];
                 let [a, b, c] = facet.sites.map(|site| sites.unit(site));
-                let shares: f64 = (0..3).map(|k| batch.sums[k][3][0]).sum();
+                let shares: f64 = (0..3).map(|k| batches.batches[0].sums[k][3][0]).sum();
                 if facet.class() != ABOVE {
                     assert_eq!(shares, 0.0);
                     continue;

@@ -1,0 +1,21 @@
+//! Parts of the work on very many sites, side by side where the feature `rayon` is on; the same results as one after another.
+
+/// How many parts are worth while at a time, for so many sites.
+pub(super) fn parts(sites: usize) -> usize {
+    if cfg!(feature = "rayon") && sites >= super::MANY { PARTS } else { 1 }
+}
+
+/// More than processors have cores, so that none waits long for the last one.
+const PARTS: usize = 64;
+
+/// Calls `work` with the number of each part and the part.
+#[inline(always)]
+pub(super) fn each_part<T: Send>(parts: &mut [T], work: impl Fn(usize, &mut T) + Sync + Send) {
+    #[cfg(feature = "rayon")]
+    if parts.len() > 1 {
+        use rayon::prelude::*;
+        parts.par_iter_mut().enumerate().for_each(|(number, part)| work(number, part));
+        return;
+    }
+    parts.iter_mut().enumerate().for_each(|(number, part)| work(number, part));
+}
