@@ -95,7 +95,7 @@ impl Builder {
         let sites = Sites::new(given, keys, &mut directions, rests);
         // The planes of the hull become the corners of the diagram, in place.
         core::mem::swap(&mut hull.planes, &mut diagram.vertices);
-        let result = hull.build(sites).map(|shape| if OUTLINES { outlines.build(shape, hull, sites, pole, diagram) } else { outlines.measure(shape, hull, sites, pole, diagram) });
+        let result = hull.build(sites, pole.map(|pole| pole.unit)).map(|shape| if OUTLINES { outlines.build(shape, hull, sites, pole, diagram) } else { outlines.measure(shape, hull, sites, pole, diagram) });
         core::mem::swap(&mut hull.planes, &mut diagram.vertices);
         diagram.directions = directions;
         if result.is_err() {
