@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::hull::{Facet, Hull, next, previous};
 use super::incircle::{in_circle_of_sites, nearer};
-use super::sites::Sites;
+use super::sites::{Sites, largest_component};
 
 /// The sites as points about the centre.
 #[derive(Clone, Copy)]
@@ -41,7 +41,7 @@ enum Place {
 
 impl<'a> Points<'a> {
     pub fn new(sites: Sites<'a>, points: &'a [DVec3], start: [u32; 4]) -> Self {
-        let size = points.iter().fold(0.0, |size: f64, point| size.max(point.abs().max_element()));
+        let size = largest_component(points);
         Self { sites, points, scale: ROUNDOFF * 111.0 * size * (size + SMALLEST_SIZE), start }
     }
 

@@ -86,7 +86,7 @@ pub(super) fn ordinary_unit_vector(v: DVec3) -> (DVec3, DVec3, bool) {
     // 2⁻ᵉ for the largest component from 2ᵉ to below 2ᵉ⁺¹.
     let factor = f64::from_bits(POWERS.wrapping_sub(largest.to_bits() & EXPONENTS));
     let (unit, rest) = unit_vector(v * factor + DVec3::ZERO);
-    (unit, rest, (largest >= f64::MIN_POSITIVE) & (largest < LARGE))
+    (unit, rest, (f64::MIN_POSITIVE..LARGE).contains(&largest))
 }
 
 /// The bits of a double's exponent, and their sum for 2ᵉ and 2⁻ᵉ.

@@ -69,11 +69,9 @@ impl<'a> Sites<'a> {
         DVec3::from_array(self.rests[site as usize].map(f64::from))
     }
 
-    /// The unit vector of a site less a vector of doubles, each component right to u of itself and 2⁻⁷⁷.
-    #[inline(always)]
-    pub fn minus(&self, site: u32, v: DVec3) -> DVec3 {
-        let difference = Twofold3::from_difference(self.unit(site), v);
-        difference.hi() + (difference.lo() + self.rest(site))
+    /// Appends all unit vectors less a vector of doubles, each component right to u of itself and 2⁻⁷⁷.
+    pub fn all_minus(&self, v: DVec3, moved: &mut Vec<DVec3>) {
+        dispatch::run(Minus { sites: *self, v, moved });
     }
 
     /// The unit vector of one site less that of another, each component right to 3 u and 2⁻⁷⁶.
@@ -141,6 +139,50 @@ fn set_unit_vectors(sites: &mut [Column; 3], rests: &mut [Column<f32>; 3], count
     are_ordinary
 }
 
+struct Minus<'a> {
+    sites: Sites<'a>,
+    v: DVec3,
+    moved: &'a mut Vec<DVec3>,
+}
+
+impl Kernel for Minus<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<T: Real>(self) {
+        let Self { sites, v, moved } = self;
+        moved.extend(sites.units.iter().zip(sites.rests).map(|(&unit, &rest)| minus(unit, rest, v)));
+    }
+}
+
+/// The sum of a vector and its rest, less `v`.
+#[inline(always)]
+fn minus(unit: DVec3, rest: [f32; 3], v: DVec3) -> DVec3 {
+    let difference = Twofold3::from_difference(unit, v);
+    difference.hi() + (difference.lo() + DVec3::from_array(rest.map(f64::from)))
+}
+
+/// The largest size of a component of some vectors; zero if there are none.
+pub(super) fn largest_component(vectors: &[DVec3]) -> f64 {
+    dispatch::run(Largest { vectors })
+}
+
+struct Largest<'a> {
+    vectors: &'a [DVec3],
+}
+
+impl Kernel for Largest<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run<T: Real>(self) -> f64 {
+        // Bits of numbers that are not negative are in the order of these.
+        let bits = |x: f64| x.abs().to_bits() as i64;
+        let largest = self.vectors.iter().fold(0, |size: i64, v| size.max(bits(v.x)).max(bits(v.y)).max(bits(v.z)));
+        f64::from_bits(largest as u64)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -194,5 +236,27 @@ mod tests {
         let last = DVec3::new(1.0, -f64::MAX, f64::MAX / 3.0);
         assert!(!ordinary_unit_vector(last).2);
         assert_bits_of_rays(&[&given[..100], &sides, &[last], &given[..100]].concat());
+    }
+
+    #[test]
+    fn all_vectors_are_moved_and_compared_as_one_by_one() {
+        let at = |k: u32| DVec3::from_array([0.7, 1.9, 3.1].map(|turn| (turn * f64::from(k)).sin() * 0.4));
+        let given: Vec<DVec3> = (0..203).map(|k| DVec3::new(0.3, -0.4, 0.5) + at(k)).collect();
+        let centre = DVec3::new(0.25, -0.5, 0.3);
+        for count in 0..=given.len() {
+            let (given, keys): (_, Vec<u64>) = (&given[..count], (0..count as u64).collect());
+            let (mut units, mut rests, mut moved, mut plain) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+            let sites = Sites::new(given, &keys, &mut units, &mut rests);
+            sites.all_minus(centre, &mut moved);
+            Minus { sites, v: centre, moved: &mut plain }.run::<f64>();
+            assert_eq!(moved, plain);
+            assert_eq!(moved.len(), count);
+            for (site, &moved) in (0..count as u32).zip(&moved) {
+                let difference = Twofold3::from_difference(sites.unit(site), centre);
+                assert_eq!(moved, difference.hi() + (difference.lo() + sites.rest(site)));
+            }
+            let want = moved.iter().map(|v| v.abs().max_element()).fold(0.0, f64::max);
+            assert_eq!((largest_component(&moved), Largest { vectors: &moved }.run::<f64>()), (want, want));
+        }
     }
 }

@@ -111,6 +111,7 @@ impl Twofold3 {
     }
 
     /// `a − b`, exactly.
+    #[inline(always)]
     pub fn from_difference(a: DVec3, b: DVec3) -> Self {
         Self { x: sum(a.x, -b.x), y: sum(a.y, -b.y), z: sum(a.z, -b.z) }
     }
@@ -121,10 +122,12 @@ impl Twofold3 {
         Self { x: plus(self.x, v.x), y: plus(self.y, v.y), z: plus(self.z, v.z) }
     }
 
+    #[inline(always)]
     pub fn hi(self) -> DVec3 {
         DVec3::new(self.x.hi, self.y.hi, self.z.hi)
     }
 
+    #[inline(always)]
     pub fn lo(self) -> DVec3 {
         DVec3::new(self.x.lo, self.y.lo, self.z.lo)
     }
