@@ -10,6 +10,7 @@
 
 use glam::DVec3;
 
+use super::threads;
 use crate::solid_angle::{Real, dispatch, dispatch::Kernel};
 
 /// Bits of a coordinate on a face.
@@ -33,7 +34,7 @@ pub(super) fn sort(sites: &[DVec3], keys: &mut Vec<u64>) {
         if sites.len() < VERY_FEW { keys.sort_unstable() } else { sort_by_digits(keys) }
     } else {
         dispatch::run(Keys::<DEPTH, CUT> { sites, keys });
-        keys.sort_unstable();
+        threads::sort(keys);
     }
 }
 

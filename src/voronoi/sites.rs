@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::order;
 use super::ray::{Ray, ordinary_unit_vector};
+use super::threads;
 use super::twofold::Twofold3;
 use crate::solid_angle::{Real, dispatch, dispatch::Kernel};
 
@@ -19,6 +20,9 @@ pub(super) struct Sites<'a> {
 /// Number of sites that are loaded at a time.
 const BATCH: usize = 64;
 
+/// Number of sites for which room is made at a time: it is in the cache still when it is filled.
+const PART: usize = 32 * BATCH;
+
 /// One number of each site of a batch.
 type Column<T = f64> = [T; BATCH];
 
@@ -29,7 +33,14 @@ impl<'a> Sites<'a> {
         rests.clear();
         units.reserve(given.len());
         rests.reserve(given.len());
-        dispatch::run(Load { given, keys, units, rests });
+        for keys in keys.chunks(PART * threads::parts(given.len())) {
+            let start = units.len();
+            units.resize(start + keys.len(), DVec3::ZERO);
+            rests.resize(start + keys.len(), [0.0; 3]);
+            threads::each_chunk(&mut units[start..], &mut rests[start..], PART, |number, units, rests| {
+                dispatch::run(Load { given, keys: &keys[PART * number..][..units.len()], units, rests });
+            });
+        }
         Self { given, keys, units, rests }
     }
 
@@ -89,12 +100,12 @@ impl<'a> Sites<'a> {
     }
 }
 
-/// Appends the unit vectors of the `given` sites in the order of `keys` and what they leave.
+/// The unit vectors of the `given` sites in the order of `keys` and what they leave.
 struct Load<'a> {
     given: &'a [DVec3],
     keys: &'a [u64],
-    units: &'a mut Vec<DVec3>,
-    rests: &'a mut Vec<[f32; 3]>,
+    units: &'a mut [DVec3],
+    rests: &'a mut [[f32; 3]],
 }
 
 impl Kernel for Load<'_> {
@@ -104,7 +115,7 @@ impl Kernel for Load<'_> {
     fn run<T: Real>(self) {
         let Self { given, keys, units, rests } = self;
         let (mut columns, mut rest) = ([[1.0; BATCH]; 3], [[0.0; BATCH]; 3]);
-        for keys in keys.chunks(BATCH) {
+        for ((keys, units), rests) in keys.chunks(BATCH).zip(units.chunks_mut(BATCH)).zip(rests.chunks_mut(BATCH)) {
             // Far apart in memory: many loads at a time, before the work on each.
             let [x, y, z] = &mut columns;
             for (((x, y), z), &key) in x.iter_mut().zip(y).zip(z).zip(keys) {
@@ -112,11 +123,12 @@ impl Kernel for Load<'_> {
             }
             let count = keys.len().next_multiple_of(4);
             let are_ordinary = set_unit_vectors(&mut columns, &mut rest, count);
-            let start = units.len();
-            units.extend((0..BATCH).zip(keys).map(|(k, _)| DVec3::new(columns[0][k], columns[1][k], columns[2][k])));
-            rests.extend((0..BATCH).zip(keys).map(|(k, _)| [rest[0][k], rest[1][k], rest[2][k]]));
+            for (k, (unit, place)) in (0..BATCH).zip(units.iter_mut().zip(rests.iter_mut())) {
+                *unit = DVec3::new(columns[0][k], columns[1][k], columns[2][k]);
+                *place = [rest[0][k], rest[1][k], rest[2][k]];
+            }
             if !are_ordinary {
-                for ((unit, rest), &key) in units[start..].iter_mut().zip(&mut rests[start..]).zip(keys) {
+                for ((unit, rest), &key) in units.iter_mut().zip(rests).zip(keys) {
                     let ray = Ray::new(given[order::index(key)]);
                     (*unit, *rest) = (ray.unit, ray.rest.to_array().map(|x| x as f32));
                 }
@@ -190,8 +202,9 @@ mod tests {
     /// The unit vectors of sites, by the fastest arithmetic and by the other.
     fn unit_vectors(given: &[DVec3]) -> [(Vec<DVec3>, Vec<[f32; 3]>); 2] {
         let keys: Vec<u64> = (0..given.len() as u64).collect();
-        let [mut fast, mut plain] = [const { (Vec::new(), Vec::new()) }; 2];
+        let mut fast = (Vec::new(), Vec::new());
         Sites::new(given, &keys, &mut fast.0, &mut fast.1);
+        let mut plain = (vec![DVec3::ZERO; given.len()], vec![[0.0; 3]; given.len()]);
         Load { given, keys: &keys, units: &mut plain.0, rests: &mut plain.1 }.run::<f64>();
         [fast, plain]
     }

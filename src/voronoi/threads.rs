@@ -19,3 +19,32 @@ pub(super) fn each_part<T: Send>(parts: &mut [T], work: impl Fn(usize, &mut T) +
     }
     parts.iter_mut().enumerate().for_each(|(number, part)| work(number, part));
 }
+
+/// Calls `work` with the number of each chunk of two slices and the chunks.
+#[inline(always)]
+pub(super) fn each_chunk<A: Send, B: Send>(
+    a: &mut [A],
+    b: &mut [B],
+    size: usize,
+    work: impl Fn(usize, &mut [A], &mut [B]) + Sync + Send,
+) {
+    #[cfg(feature = "rayon")]
+    if parts(a.len()) > 1 {
+        use rayon::prelude::*;
+        let chunks = a.par_chunks_mut(size).zip(b.par_chunks_mut(size));
+        chunks.enumerate().for_each(|(number, (a, b))| work(number, a, b));
+        return;
+    }
+    a.chunks_mut(size).zip(b.chunks_mut(size)).enumerate().for_each(|(number, (a, b))| work(number, a, b));
+}
+
+/// Sorts different keys.
+pub(super) fn sort(keys: &mut [u64]) {
+    #[cfg(feature = "rayon")]
+    if parts(keys.len()) > 1 {
+        use rayon::prelude::*;
+        keys.par_sort_unstable();
+        return;
+    }
+    keys.sort_unstable();
+}
