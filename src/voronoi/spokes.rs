@@ -4,6 +4,7 @@
 //! A step around a site waits for the one before, but not for those around other sites, so that these are taken in turns.
 
 use super::hull::{ABOVE, BELOW, FLATS, Facet, SPECIAL, next, previous};
+use super::threads;
 
 /// Cells at a time.
 const CELLS: usize = 16;
@@ -30,16 +31,24 @@ pub(super) struct Spokes {
     firsts: Vec<Spoke>,
     /// The next site.
     next: usize,
+    /// As many as are worth while at a time.
+    groups: Vec<Group>,
+    /// Number of cells in all groups.
+    len: usize,
+    /// Those of a cell with more than a group has room for.
+    many: Vec<Spoke>,
+    /// The facets that no cell has met before.
+    met: Vec<u32>,
+}
+
+/// Cells that are walked in turns.
+#[derive(Clone, Copy, Debug, Default)]
+struct Group {
     /// The sites of the cells, and the first spoke and the number of spokes of each, if it is not above `STEPS`.
     sites: [u32; CELLS],
     starts: [Spoke; CELLS],
     counts: [usize; CELLS],
-    len: usize,
     steps: [[Spoke; STEPS]; CELLS],
-    /// Those of a cell with more.
-    many: Vec<Spoke>,
-    /// The facets that no cell has met before.
-    met: Vec<u32>,
 }
 
 /// For sites without a cell.
@@ -56,6 +65,7 @@ impl Spokes {
     /// Starts at the first site again.
     pub fn reset(&mut self, facets: &[Facet], sites: usize) {
         self.next = 0;
+        self.groups.resize(threads::parts(sites), Group::default());
         self.firsts.clear();
         self.firsts.resize(sites, NONE);
         for (f, facet) in (0..).zip(facets) {
@@ -68,29 +78,38 @@ impl Spokes {
 
     /// Goes to a cell alone, of which this is a corner.
     pub fn go_to(&mut self, site: u32, first: Spoke) {
-        (self.sites[0], self.starts[0], self.counts[0]) = (site, first, STEPS + 1);
+        self.groups.resize(self.groups.len().max(1), Group::default());
+        let group = &mut self.groups[0];
+        (group.sites[0], group.starts[0], group.counts[0]) = (site, first, STEPS + 1);
     }
 
     /// Goes on to the next cells; returns the number of them. `MEETS`: and sets `met`.
     pub fn next<const MEETS: bool>(&mut self, facets: &mut [Facet]) -> usize {
-        self.len = 0;
-        while self.len < CELLS && self.next < self.firsts.len() {
-            let first = self.firsts[self.next];
-            if first != NONE {
-                (self.sites[self.len], self.starts[self.len]) = (self.next as u32, first);
-                self.len += 1;
+        let Self { firsts, next, groups, len, met, .. } = self;
+        *len = 0;
+        met.clear();
+        for group in groups {
+            let mut count = 0;
+            while count < CELLS && *next < firsts.len() {
+                let first = firsts[*next];
+                if first != NONE {
+                    (group.sites[count], group.starts[count]) = (*next as u32, first);
+                    count += 1;
+                }
+                *next += 1;
             }
-            self.next += 1;
+            group.walk::<MEETS>(count, facets, met);
+            *len += count;
         }
-        self.walk::<MEETS>(facets);
-        self.len
+        *len
     }
 
     /// Calls `visit` with the sites, and a spoke of each, of as many cells further on.
     #[inline(always)]
     pub fn each_ahead(&self, mut visit: impl FnMut(u32, Spoke)) {
-        let start = (self.next + AHEAD).min(self.firsts.len());
-        let end = (start + CELLS).min(self.firsts.len());
+        let cells = CELLS * self.groups.len();
+        let start = (self.next + AHEAD.max(cells)).min(self.firsts.len());
+        let end = (start + cells).min(self.firsts.len());
         for (site, &first) in (start..end).zip(&self.firsts[start..end]) {
             visit(site as u32, first);
         }
@@ -99,17 +118,18 @@ impl Spokes {
     /// The site of one of the cells.
     #[inline(always)]
     pub fn site(&self, cell: usize) -> u32 {
-        self.sites[cell]
+        self.groups[cell / CELLS].sites[cell % CELLS]
     }
 
     /// The spokes of one of the cells.
     #[inline(always)]
     pub fn spokes(&mut self, cell: usize, facets: &[Facet]) -> &[Spoke] {
-        let count = self.counts[cell];
+        let (group, cell) = (&self.groups[cell / CELLS], cell % CELLS);
+        let count = group.counts[cell];
         if count <= STEPS {
-            return &self.steps[cell][..count];
+            return &group.steps[cell][..count];
         }
-        let (first, mut spoke) = (self.starts[cell], self.starts[cell]);
+        let (first, mut spoke) = (group.starts[cell], group.starts[cell]);
         self.many.clear();
         loop {
             self.many.push(spoke);
@@ -124,16 +144,19 @@ impl Spokes {
     pub fn met(&self) -> &[u32] {
         &self.met
     }
+}
 
-    /// Sets `steps` and `counts`, and the facets that these cells are the first to meet.
-    fn walk<const MEETS: bool>(&mut self, facets: &mut [Facet]) {
-        let Self { starts, counts, steps, met, .. } = self;
+impl Group {
+    /// Sets `steps` and `counts` of so many cells, and adds the facets that these are the first to meet to `met`.
+    fn walk<const MEETS: bool>(&mut self, cells: usize, facets: &mut [Facet], met: &mut Vec<u32>) {
+        let Self { starts, counts, steps, .. } = self;
+        let before = met.len();
         if MEETS {
-            met.resize(CELLS * STEPS, 0);
+            met.resize(before + CELLS * STEPS, 0);
         }
         let mut at = *starts;
         let mut active: [u8; CELLS] = core::array::from_fn(|k| k as u8);
-        let (mut count, mut new) = (self.len.min(CELLS), 0);
+        let (mut count, mut new) = (cells.min(CELLS), before);
         for turns in 1..=STEPS {
             let mut left = 0;
             for k in 0..count {
