@@ -1,7 +1,7 @@
 //! The kernel on every copy, and the measures of single facets against polygons.
 
 use super::*;
-use crate::voronoi::order;
+use crate::voronoi::{Diagram, order, outlines::ByName};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -31,8 +31,8 @@ fn every_processor_gives_the_same_bits() {
                 diagrams.iter_mut().for_each(|diagram| diagram.reset(pole, count));
                 let [diagram, plain] = &mut diagrams;
                 let (batch, new) = (&mut batch, &new[..]);
-                add_facets(batch, new, &mut hull, sites, pole, &mut Named { sites, diagram });
-                let shares = &mut Named { sites, diagram: plain };
+                add_facets(batch, new, &mut hull, sites, pole, &mut ByName { sites, diagram });
+                let shares = &mut ByName { sites, diagram: plain };
                 AddFacets { batch, new, hull: &mut other, sites, pole, shares }.run::<f64>();
                 let bits =
                     |v: &[DVec3]| -> Vec<[u64; 3]> { v.iter().map(|v| v.to_array().map(f64::to_bits)).collect() };
@@ -76,7 +76,7 @@ fn shares_of_a_facet_sum_to_its_solid_angle_and_its_corner_is_as_far_from_all_si
             diagram.reset(None, count);
             let tested = hull.facets.len().min(10_000);
             for f in 0..tested as u32 {
-                add_facets(&mut batch, &[f], &mut hull, sites, None, &mut diagram);
+                add_facets(&mut batch, &[f], &mut hull, sites, None, &mut ByName { sites, diagram: &mut diagram });
                 let facet = hull.facets[f as usize];
                 let [a, b, c] = facet.sites.map(|site| sites.unit(site));
                 let shares: f64 = (0..3).map(|k| batch.solid_angles[k][0]).sum();
