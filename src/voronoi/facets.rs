@@ -35,12 +35,12 @@ const WIDE: f64 = 0.6;
 const NEAR_HORIZON: f64 = 1.0 / (1u64 << 44) as f64;
 
 /// Facets at a time: two for each of some cells, and as a rule some more.
-const BATCH: usize = 48;
+pub(super) const BATCH: usize = 48;
 
 /// One number of each facet.
-type Column<T = f64> = [T; BATCH];
+pub(super) type Column<T = f64> = [T; BATCH];
 
-type Columns = [Column; 3];
+pub(super) type Columns = [Column; 3];
 
 /// Some facets.
 #[derive(Clone, Debug)]
@@ -84,12 +84,12 @@ impl Default for Batch {
 }
 
 #[inline(always)]
-fn at(columns: &Columns, k: usize) -> DVec3 {
+pub(super) fn at(columns: &Columns, k: usize) -> DVec3 {
     DVec3::new(columns[0][k], columns[1][k], columns[2][k])
 }
 
 #[inline(always)]
-fn set(columns: &mut Columns, k: usize, v: DVec3) {
+pub(super) fn set(columns: &mut Columns, k: usize, v: DVec3) {
     (columns[0][k], columns[1][k], columns[2][k]) = (v.x, v.y, v.z);
 }
 
@@ -168,9 +168,9 @@ pub(super) struct Share {
     pub spoke: Spoke,
     pub solid_angle: f64,
     pub moment: DVec3,
-    /// sin² of the corner's distance from the site, infinite if doubles are not enough or it is below the horizon.
+    /// sin² of the corner's distance from the site: infinite if doubles are not enough, zero if it is below the horizon.
     pub reach: f32,
-    /// The square of the facet's shortest edge.
+    /// The square of the facet's shortest edge; zero for an edge that the horizon cuts.
     pub shortest: f32,
 }
 
@@ -332,7 +332,7 @@ impl Batch {
             let facet = &mut facets[f as usize];
             planes[f as usize] = at(&self.corner, lane);
             let (class, shortest) = (self.class[lane] as u32, self.shortest[lane]);
-            let reach = if class == ABOVE { self.reach[lane] as f32 } else { f32::INFINITY };
+            let reach = if class == SPECIAL { f32::INFINITY } else { self.reach[lane] as f32 };
             for k in 0..3 {
                 shares.add(
                     facet.sites[k],

@@ -20,9 +20,9 @@ pub(super) struct Tallies {
 pub(super) struct Tally {
     pub moment: DVec3,
     pub solid_angle: f64,
-    /// Largest sin² of the distance of a corner, infinite if doubles are not enough for one or it is below the horizon.
+    /// Largest sin² of the distance of a corner above the horizon or on it, infinite if doubles are not enough for one.
     reach: f32,
-    /// The square of the shortest edge of its facets.
+    /// The square of the shortest edge of its facets, zero if the horizon cuts it.
     shortest: f32,
 }
 
