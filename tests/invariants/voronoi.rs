@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "each user takes a part of it")]
 
 use steradian::glam::DVec3;
-use steradian::voronoi::{self, Builder, Diagram, HORIZON, VoronoiError};
+use steradian::voronoi::{self, Builder, Diagram, HORIZON, SOLID_ANGLE_ERROR, VoronoiError};
 
 fn diagram(sites: &[DVec3], pole: Option<DVec3>) -> Result<Diagram, VoronoiError> {
     match pole {
@@ -44,6 +44,15 @@ pub fn check(sites: &[DVec3], pole: Option<DVec3>) {
     match again {
         Ok(again) => assert_same_bits(&first, again),
         Err(error) => panic!("{error} for {scaled:?}"),
+    }
+    // Without outlines the measures are the same but for rounding.
+    let measured = match pole {
+        None => builder.measure_sphere(sites),
+        Some(pole) => builder.measure_hemisphere(sites, pole),
+    };
+    match measured {
+        Ok(measured) => assert_close_measures(&first, measured),
+        Err(error) => panic!("{error} for {sites:?}"),
     }
 }
 
@@ -117,6 +126,17 @@ fn scaled_exactly(v: DVec3, i: usize) -> DVec3 {
     let factor = [1.0, 0.25, 1024.0, 2f64.powi(600), 2f64.powi(-600)][i % 5];
     let scaled = v * factor;
     if scaled.is_finite() && scaled / factor == v { scaled } else { v }
+}
+
+/// Solid angles and vector moments, each within its bound.
+fn assert_close_measures(a: &Diagram, b: &Diagram) {
+    let allowed = 2.0 * SOLID_ANGLE_ERROR;
+    for (i, (a, b)) in a.solid_angles().iter().zip(b.solid_angles()).enumerate() {
+        assert!((a - b).abs() <= allowed, "solid angle of cell {i}: {a} and {b}");
+    }
+    for (i, (a, b)) in a.vector_moments().iter().zip(b.vector_moments()).enumerate() {
+        assert!((a - b).abs().max_element() <= allowed, "moment of cell {i}: {a} and {b}");
+    }
 }
 
 /// Equality to the last bit.
