@@ -177,3 +177,23 @@ fn tens_of_thousands_of_sites_and_some_cells_of_many_corners_are_valid() {
     invariants::check(&sites, None);
     invariants::check(&sites, Some(DVec3::new(0.48, 0.6, 0.64)));
 }
+
+/// So many sites are measured in another order with outlines than without.
+#[test]
+fn measures_without_outlines_are_those_of_the_diagram() {
+    let (mut rng, mut builder) = (seeds::rng(8), Builder::new());
+    for kind in [Kind::Uniform, Kind::UpperHalf] {
+        let sites = sites::make(kind, 40_000, &mut rng);
+        let pole = sites::direction(&mut rng);
+        let dome = voronoi::hemisphere(&sites, pole).expect("sites are valid");
+        assert_eq!(dome.validate(), Ok(()));
+        let measured = builder.measure_hemisphere(&sites, pole).expect("sites are valid");
+        let allowed = bound("permuted", "*");
+        for (i, cell) in dome.cells().enumerate() {
+            let (got, want) = (measured.solid_angles()[i], cell.solid_angle());
+            assert!((got - want).abs() <= allowed * want, "{kind:?}, cell {i}: got {got}, want {want}");
+            let (got, want) = (measured.vector_moments()[i], cell.vector_moment());
+            assert!((got - want).length() <= allowed, "{kind:?}, cell {i}: got {got}, want {want}");
+        }
+    }
+}

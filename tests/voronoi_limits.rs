@@ -193,6 +193,21 @@ proptest! {
         laws::slow(&sites, pole);
         invariants::check(&sites, pole);
     }
+
+    #[test]
+    fn measures_without_outlines_have_the_bits_of_the_diagram(limit in select(&LIMITS[..]), seed: u64) {
+        let (sites, pole) = make(limit, &mut sites::rng(seed));
+        let mut builder = Builder::new();
+        let measured = match pole {
+            None => builder.measure_sphere(&sites),
+            Some(pole) => builder.measure_hemisphere(&sites, pole),
+        };
+        let (measured, whole) = (measured.expect("sites are valid"), laws::diagram(&sites, pole));
+        let bits = |solid_angles: &[f64]| -> Vec<u64> { solid_angles.iter().map(|x| x.to_bits()).collect() };
+        prop_assert_eq!(bits(measured.solid_angles()), bits(whole.solid_angles()), "{:?}", sites);
+        let bits = |moments: &[DVec3]| -> Vec<[u64; 3]> { moments.iter().map(|v| v.to_array().map(f64::to_bits)).collect() };
+        prop_assert_eq!(bits(measured.vector_moments()), bits(whole.vector_moments()), "{:?}", sites);
+    }
 }
 
 /// A vector of integers.

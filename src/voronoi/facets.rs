@@ -36,12 +36,12 @@ const WIDE: f64 = 0.6;
 const NEAR_HORIZON: f64 = 1.0 / (1u64 << 44) as f64;
 
 /// Facets at a time: two for each of some cells, and as a rule some more.
-const BATCH: usize = 48;
+pub(super) const BATCH: usize = 48;
 
 /// One number of each facet.
-type Column<T = f64> = [T; BATCH];
+pub(super) type Column<T = f64> = [T; BATCH];
 
-type Columns = [Column; 3];
+pub(super) type Columns = [Column; 3];
 
 /// Some facets.
 #[derive(Clone, Debug)]
@@ -84,12 +84,12 @@ impl Default for Batch {
 }
 
 #[inline(always)]
-fn at(columns: &Columns, k: usize) -> DVec3 {
+pub(super) fn at(columns: &Columns, k: usize) -> DVec3 {
     DVec3::new(columns[0][k], columns[1][k], columns[2][k])
 }
 
 #[inline(always)]
-fn set(columns: &mut Columns, k: usize, v: DVec3) {
+pub(super) fn set(columns: &mut Columns, k: usize, v: DVec3) {
     (columns[0][k], columns[1][k], columns[2][k]) = (v.x, v.y, v.z);
 }
 
@@ -168,8 +168,8 @@ pub(super) struct Share {
     pub spoke: Spoke,
     pub solid_angle: f64,
     pub moment: DVec3,
-    /// Of the cell these are the largest: sin² of the corner's distance from the site, infinite if doubles are not enough or it
-    /// is below the horizon; and minus the square of the facet's shortest edge.
+    /// Of the cell these are the largest: sin² of the corner's distance from the site, infinite if doubles are not enough, zero
+    /// if it is below the horizon; and minus the square of the facet's shortest edge, zero for an edge that the horizon cuts.
     pub limits: [f32; 2],
 }
 
@@ -298,14 +298,15 @@ impl Batch {
             let is_long = shortest >= SHORT * SHORT;
             let is_good =
                 is_long & (n.length_squared() >= SHARP * SHARP * product) & (reach <= WIDE * WIDE) & (height > 0.0);
-            let (mut is_above, mut class) = (is_good, SPECIAL);
+            let (mut is_above, mut is_below) = (is_good, false);
             if HORIZON {
                 // The component of n along the pole, over the edges: its square, with its sign.
                 let up = n.dot(pole);
                 let (up, least) = (up * up.abs(), NEAR_HORIZON * NEAR_HORIZON * product);
                 is_above = is_good & (up > least);
-                class = if is_long & (up < -least) { BELOW } else { SPECIAL };
+                is_below = is_long & (up < -least);
             }
+            let class = if is_below { BELOW } else { SPECIAL };
             self.mark[k] = mark(if is_above { ABOVE } else { class }, shortest).into();
             // Others add nothing.
             let or = |x: f64, other: f64| if is_above { x } else { other };
@@ -314,7 +315,8 @@ impl Batch {
             set(&mut self.cotangents, k, or_zero(cotangents));
             self.cosine[k] = or(height * over_n, 1.0);
             self.reach[k] = or(reach, 0.0);
-            (self.limits[0][k], self.limits[1][k]) = (or(reach, f64::INFINITY), -shortest);
+            let farthest = or(reach, if is_below { 0.0 } else { f64::INFINITY });
+            (self.limits[0][k], self.limits[1][k]) = (farthest, -shortest);
         }
     }
 

@@ -9,7 +9,7 @@ use glam::DVec3;
 use super::clip::{Cell, View};
 use super::diagram::{Diagram, NO_VERTEX, Record};
 use super::facets::{Batches, Share, Shares};
-use super::horizon::{Horizon, crossing};
+use super::horizon::{self, Cuts};
 use super::hull::{ABOVE, BELOW, Facet, Hull, SET, SPECIAL, Shape};
 use super::measure::{Measure, is_thin};
 use super::predicate::orientation;
@@ -35,6 +35,7 @@ pub(super) struct Outlines {
     /// Of some cells at a time.
     spokes: Spokes,
     batches: Batches,
+    cuts: Box<Cuts>,
     shared: Shared,
     /// Of one cell.
     edges: Vec<Edge>,
@@ -62,7 +63,7 @@ struct Across {
 /// An edge of a cell, and the corner where it starts.
 #[derive(Clone, Copy, Debug)]
 struct Edge {
-    /// sin² of the corner's distance from the site, if it is above the horizon.
+    /// sin² of the corner's distance from the site; zero if it is not above the horizon, or not for doubles.
     reach: f32,
     class: u32,
     spoke: Spoke,
@@ -136,12 +137,15 @@ impl Outlines {
         }
     }
 
-    /// Measures all cells of a solid hull: by their facets alone, unless these are not enough.
+    /// Measures all cells of a solid hull: by their facets and cuts alone, unless these are not enough.
     fn measure_cells(&mut self, walk: &mut Walk<'_>) {
         let mut tallies = core::mem::take(&mut self.tallies);
         tallies.reset(walk.sites.len());
         let Walk { hull, sites, pole, .. } = walk;
         self.batches.add_all(hull, *sites, pole.map(|pole| pole.unit), &mut tallies);
+        if let Some(pole) = *pole {
+            horizon::add_all_cuts(&mut self.cuts, &hull.facets, *sites, pole, &mut self.shared, &mut tallies);
+        }
         for site in 0..walk.sites.len() as u32 {
             let (tally, first) = tallies.get(site);
             if tally.is_nothing() {
@@ -152,7 +156,8 @@ impl Outlines {
             walk.diagram.vector_moments[name] = tally.moment;
             if !tally.is_ordinary() {
                 self.spokes.go_to(site, first);
-                self.add_uneven_cell(0, walk);
+                self.set_edges(0, walk);
+                self.add_special_cell(site, walk);
             }
         }
         self.tallies = tallies;
@@ -161,13 +166,16 @@ impl Outlines {
     /// Adds all cells of a solid hull.
     ///
     /// Facets of few sites are measured in the order in which they lie, those of many as cells meet them: what they add to is
-    /// then in the cache still from others.
+    /// then in the cache still from others. A horizon cuts edges of facets that are measured.
     fn add_cells(&mut self, walk: &mut Walk<'_>) {
         self.spokes.reset(&walk.hull.facets, walk.sites.len());
-        if walk.sites.len() < MANY {
-            let Walk { hull, sites, diagram, .. } = walk;
+        if walk.sites.len() < MANY || walk.pole.is_some() {
+            let Walk { hull, sites, pole, diagram } = walk;
             let shares = &mut ByName { sites: *sites, diagram };
-            self.batches.add_all(hull, *sites, walk.pole.map(|pole| pole.unit), shares);
+            self.batches.add_all(hull, *sites, pole.map(|pole| pole.unit), shares);
+            if let Some(pole) = *pole {
+                horizon::add_all_cuts(&mut self.cuts, &hull.facets, *sites, pole, &mut self.shared, shares);
+            }
             self.add_cells_in_turn::<false>(walk);
         } else {
             self.add_cells_in_turn::<true>(walk);
@@ -246,16 +254,17 @@ impl Outlines {
         let site = self.spokes.site(cell);
         let classes = self.set_edges(cell, walk);
         let start = walk.diagram.neighbors.len();
-        let measures = match classes {
-            BELOW => Some((0.0, DVec3::ZERO)),
-            ABOVE_AND_BELOW => self.clipped_cell(site, walk),
-            _ => None,
-        };
-        if let Some(measures) = measures {
-            walk.finish(site, start, measures);
-            return;
+        if classes & BELOW != 0 && self.add_clipped_cell(site, classes, walk) {
+            walk.set_record(site, start);
+        } else {
+            walk.diagram.drop_outline(start);
+            self.add_special_cell(site, walk);
         }
-        walk.diagram.drop_outline(start);
+    }
+
+    /// Adds the cell of `site`, which has these `edges`, plane by plane.
+    #[inline(never)]
+    fn add_special_cell(&mut self, site: u32, walk: &mut Walk<'_>) {
         self.around.clear();
         for &Edge { neighbor, spoke, class, .. } in self.edges.iter().filter(|edge| !edge.is_flat) {
             let (vertex, is_special) = (spoke >> 2, class == SPECIAL);
@@ -304,43 +313,32 @@ impl Outlines {
         }
     }
 
-    /// Adds the outline of a cell of ordinary corners above the horizon and some below, unless doubles are not enough.
-    ///
-    /// Facets have measured it but for the parts of its edges beyond the middle to the horizon, and that itself.
-    fn clipped_cell(&mut self, site: u32, walk: &mut Walk<'_>) -> Option<(f64, DVec3)> {
-        let (pole, name) = (walk.pole?, walk.name(site) as usize);
-        let (mut solid_angle, mut moment) = (walk.diagram.solid_angles[name], walk.diagram.vector_moments[name]);
-        let horizon = Horizon::new(site, pole, walk.sites);
-        let mut cuts = [None, None];
-        for (k, start) in self.edges.iter().enumerate() {
-            let end = &self.edges[if k + 1 == self.edges.len() { 0 } else { k + 1 }];
-            let &Edge { spoke, neighbor, .. } = start;
-            let name = walk.name(neighbor);
+    /// Adds the outline of a cell with corners below the horizon, or a part of it: facets and cuts have measured it. Tells
+    /// whether doubles are enough for all of it.
+    fn add_clipped_cell(&mut self, site: u32, classes: u32, walk: &mut Walk<'_>) -> bool {
+        let mut reach = 0.0f32;
+        for k in 0..self.edges.len() {
+            let (start, end) = (self.edges[k], self.edges[if k + 1 == self.edges.len() { 0 } else { k + 1 }]);
+            let (spoke, name) = (start.spoke, walk.name(start.neighbor));
+            reach = reach.max(start.reach);
             match (start.class, end.class) {
                 (ABOVE, ABOVE) if !start.is_flat => walk.diagram.push_edge(name, spoke >> 2),
                 (ABOVE, BELOW) => {
-                    let normal = || walk.sites.offset(site, neighbor);
-                    let (vertex, point) = self.shared.crossing(spoke, || crossing(normal(), pole.unit))?;
+                    let (vertex, at_exit) = self.shared.crossing(spoke).unwrap_or(UNKNOWN);
                     walk.diagram.push_edge(name, spoke >> 2);
                     walk.diagram.push_edge(HORIZON, vertex);
-                    cuts[0] = horizon.cut(neighbor, point);
+                    reach = reach.max(at_exit);
                 }
                 (BELOW, ABOVE) => {
-                    let normal = || walk.sites.offset(neighbor, site);
-                    let (vertex, point) = self.shared.crossing(walk.across(spoke), || crossing(normal(), pole.unit))?;
+                    let (vertex, at_entry) = self.shared.crossing(walk.across(spoke)).unwrap_or(UNKNOWN);
                     walk.diagram.push_edge(name, vertex);
-                    cuts[1] = horizon.cut(neighbor, point);
+                    reach = reach.max(at_entry);
                 }
                 _ => {}
             }
         }
-        let [Some(exit), Some(entry)] = &cuts else { return None };
-        let base = horizon.triangle(exit, entry);
-        solid_angle += exit.solid_angle - entry.solid_angle + base.0;
-        moment += exit.vector_moment - entry.vector_moment + base.1;
-        let above = self.edges.iter().filter(|edge| edge.class == ABOVE);
-        let reach = above.map(|edge| edge.reach.into()).fold(exit.reach.max(entry.reach), f64::max);
-        (!is_thin(solid_angle, reach)).then_some((solid_angle, moment))
+        let solid_angle = walk.diagram.solid_angles[walk.name(site) as usize];
+        classes & SPECIAL == 0 && reach < f32::INFINITY && !is_thin(solid_angle, reach.into())
     }
 
     /// Adds the cell of `site` with the edges `around`.
@@ -374,7 +372,10 @@ impl Outlines {
                     (Some(corner), None) => {
                         let goes_down = before != HORIZON;
                         let edge = if goes_down { around[before as usize].exit } else { around[at as usize].entry };
-                        shared.crossing(edge, || Some(corner.unit)).map_or(NO_VERTEX, |(vertex, _)| vertex)
+                        match shared.crossing(edge) {
+                            Some((vertex, _)) => vertex,
+                            None => shared.set_crossing(edge, corner.unit, f32::INFINITY),
+                        }
                     }
                 };
                 let neighbor = if at == HORIZON { HORIZON } else { walk.name(around[at as usize].neighbor) };
@@ -458,4 +459,5 @@ fn set_owners(twins: &[(u32, u32)], sites: Sites<'_>, diagram: &mut Diagram) {
     }
 }
 
-const ABOVE_AND_BELOW: u32 = ABOVE | BELOW;
+/// In place of a crossing of an edge for which doubles are not enough.
+const UNKNOWN: (u32, f32) = (NO_VERTEX, f32::INFINITY);

@@ -14,11 +14,19 @@ pub(super) struct Shared {
     first: u32,
     /// The corner in which each edge goes below the horizon.
     crossings: Vec<u32>,
-    points: Vec<DVec3>,
+    points: Vec<Point>,
     /// Leads from each corner to a lower one that is the same, or to itself.
     lower: Vec<u32>,
     /// The vertex of each corner.
     numbers: Vec<u32>,
+}
+
+/// A corner on the horizon.
+#[derive(Clone, Copy, Debug)]
+struct Point {
+    unit: DVec3,
+    /// sin² of its distance from the sites of the edge, infinite if doubles are not enough for their cells.
+    reach: f32,
 }
 
 const NONE: u32 = u32::MAX;
@@ -41,16 +49,20 @@ impl Shared {
         self.flats.push((facet, other));
     }
 
-    /// The vertex in which `edge`, seen from the site on its left, goes below the horizon; at `point`, unless it has one.
+    /// The vertex in which `edge`, seen from the site on its left, goes below the horizon, if it has one, and its reach.
     #[inline]
-    pub fn crossing(&mut self, edge: u32, point: impl FnOnce() -> Option<DVec3>) -> Option<(u32, DVec3)> {
-        let vertex = &mut self.crossings[edge as usize];
-        if *vertex == NONE {
-            let point = point()?;
-            *vertex = self.first + self.points.len() as u32;
-            self.points.push(point);
-        }
-        Some((*vertex, self.points[(*vertex - self.first) as usize]))
+    pub fn crossing(&self, edge: u32) -> Option<(u32, f32)> {
+        let vertex = self.crossings[edge as usize];
+        (vertex != NONE).then(|| (vertex, self.points[(vertex - self.first) as usize].reach))
+    }
+
+    /// Gives an edge that has none such a vertex.
+    #[inline]
+    pub fn set_crossing(&mut self, edge: u32, unit: DVec3, reach: f32) -> u32 {
+        let vertex = self.first + self.points.len() as u32;
+        self.crossings[edge as usize] = vertex;
+        self.points.push(Point { unit, reach });
+        vertex
     }
 
     /// Gives facets without a corner that of another one, if it is the same.
@@ -100,7 +112,7 @@ impl Shared {
         }
         vertices.truncate(count as usize);
         numbers.extend(count..count + points.len() as u32);
-        vertices.append(points);
+        vertices.extend(points.iter().map(|point| point.unit));
         for index in indices {
             *index = numbers.get(*index as usize).copied().unwrap_or(NO_VERTEX);
         }

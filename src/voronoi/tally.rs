@@ -18,7 +18,7 @@ pub(super) struct Tallies {
 pub(super) struct Tally {
     pub moment: DVec3,
     pub solid_angle: f64,
-    /// The largest of each of its shares' limits.
+    /// The largest of each of its shares' limits: infinite if doubles are not enough for a corner; zero if the horizon cuts it.
     limits: [f32; 2],
     /// A corner of the cell.
     first: Spoke,
