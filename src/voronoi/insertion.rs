@@ -23,7 +23,7 @@ pub(super) struct Buffers {
     /// Facets of the hole, then of the new facets.
     pub hole: Vec<u32>,
     /// Edges of the hole to be looked across.
-    open: Vec<(f64, u32)>,
+    open: Vec<u32>,
     /// Edges into facets that stay, counter-clockwise.
     rim: Vec<u32>,
     /// Which of these are of facets with the site on their plane.
@@ -212,20 +212,18 @@ impl Hull {
         let most = room - ROOM;
         let (mut found, mut closed, mut left) = (1, 0, 2);
         hole[0] = facet;
-        let excess = |across: u32| planes[(across >> 2) as usize].dot(point) - 1.0;
         let [mut across, b, c] = facets[facet as usize].across;
-        (open[0], open[1]) = ((excess(c), c), (excess(b), b));
-        let mut value = excess(across);
+        (open[0], open[1]) = (c, b);
         loop {
             let there = &facets[(across >> 2) as usize];
-            let is_sure = value.abs() > f64::from(there.error);
-            if if is_sure { value > 0.0 } else { points.is_beyond_circle(there, site, closed, flat) } {
+            let excess = planes[(across >> 2) as usize].dot(point) - 1.0;
+            let is_sure = excess.abs() > f64::from(there.error);
+            if if is_sure { excess > 0.0 } else { points.is_beyond_circle(there, site, closed, flat) } {
                 *hole[..most].get_mut(found)? = across >> 2;
                 found += 1;
                 let (after, before) = others(across & 3);
                 across = there.across[after];
-                value = excess(across);
-                open[left] = (excess(there.across[before]), there.across[before]);
+                open[left] = there.across[before];
                 left += 1;
             } else {
                 rim[closed] = across;
@@ -234,7 +232,7 @@ impl Hull {
                     break;
                 }
                 left -= 1;
-                (value, across) = open[left];
+                across = open[left];
             }
         }
         let end = facets.len() as u32;
@@ -288,10 +286,9 @@ impl Hull {
 impl Buffers {
     #[cold]
     fn grow(&mut self) {
-        let room = (2 * self.hole.len()).max(64);
-        self.hole.resize(room, 0);
-        self.rim.resize(room, 0);
-        self.open.resize(room, (0.0, 0));
+        for buffer in [&mut self.hole, &mut self.open, &mut self.rim] {
+            buffer.resize((2 * buffer.len()).max(64), 0);
+        }
     }
 }
 
