@@ -8,7 +8,7 @@ use bounds::voronoi::bound;
 use rand::RngExt;
 use sites::Kind;
 use steradian::glam::{DQuat, DVec3};
-use steradian::voronoi::{self, Builder, Diagram, HORIZON};
+use steradian::voronoi::{self, Builder, Diagram, HORIZON, RELATIVE_ERROR};
 
 mod bounds;
 #[path = "invariants/voronoi.rs"]
@@ -195,5 +195,32 @@ fn measures_without_outlines_are_those_of_the_diagram() {
             let (got, want) = (measured.vector_moments()[i], cell.vector_moment());
             assert!((got - want).length() <= allowed, "{kind:?}, cell {i}: got {got}, want {want}");
         }
+    }
+}
+
+/// Of the circle's site: as right as others though its measures are sums of very many parts.
+#[test]
+fn a_cell_of_very_many_edges_is_as_right_as_others() {
+    let mut builder = Builder::new();
+    for count in [100, 1000, 20_000] {
+        let at = |k: i32| {
+            let (sine, cosine) = (TAU * (f64::from(k) + 0.25) / f64::from(count)).sin_cos();
+            DVec3::new(0.3 * cosine, 0.3 * sine, 1.0)
+        };
+        let sites: Vec<DVec3> = (0..count).map(at).chain([DVec3::Z]).collect();
+        // Each of 2 n right-angled triangles has the leg m, half the way to a neighbour, and the angle π/n at the axis.
+        let (m, angle) = (0.5 * 0.3f64.atan(), PI / f64::from(count));
+        let other = (m.sin() * angle.tan()).atan();
+        let want = f64::from(count) * 4.0 * ((0.5 * m).tan() * (0.5 * other).tan()).atan();
+        let near = |what: &str, got: f64| {
+            let error = (got / want - 1.0).abs();
+            assert!(error <= RELATIVE_ERROR, "{what}: {got} is {error:e} off for {count} edges");
+        };
+        near("sphere", builder.sphere(&sites).expect("sites are valid").solid_angles()[count as usize]);
+        near("measures", builder.measure_sphere(&sites).expect("sites are valid").solid_angles()[count as usize]);
+        let dome = builder.hemisphere(&sites, DVec3::X).expect("sites are valid");
+        near("hemisphere", 2.0 * dome.solid_angles()[count as usize]);
+        let dome = builder.measure_hemisphere(&sites, DVec3::X).expect("sites are valid");
+        near("measures of a hemisphere", 2.0 * dome.solid_angles()[count as usize]);
     }
 }

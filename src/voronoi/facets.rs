@@ -164,8 +164,9 @@ impl Circle {
 /// What a facet adds to the cell of one of its sites.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Share {
-    /// The corner in the cell.
+    /// The corner in the cell, and whether that is the facet's own, 1, or where the horizon cuts an edge, 0.
     pub spoke: Spoke,
+    pub corners: u32,
     pub solid_angle: f64,
     pub moment: DVec3,
     /// Of the cell these are the largest: sin² of the corner's distance from the site, infinite if doubles are not enough, zero
@@ -377,7 +378,7 @@ impl Batch {
             for (&site, (corner, sums)) in facet.sites.iter().zip((0..).zip(&self.sums)) {
                 let spoke = 4 * f + next(corner) as u32;
                 let [x, y, z, solid_angle] = sums.each_ref().map(|column| column[k]);
-                shares.add(site, Share { spoke, moment: DVec3::new(x, y, z), solid_angle, limits });
+                shares.add(site, Share { spoke, corners: 1, moment: DVec3::new(x, y, z), solid_angle, limits });
             }
         }
     }

@@ -229,7 +229,7 @@ impl Cuts {
             let spokes = [edge, facet(facets, edge).across[(edge & 3) as usize]];
             for (k, site) in sites_of(facets, edge).into_iter().enumerate() {
                 let (solid_angle, moment) = (self.solid_angles[k][lane], at(&self.moments[k], lane));
-                shares.add(site, Share { spoke: spokes[k], solid_angle, moment, limits: [reach, 0.0] });
+                shares.add(site, Share { spoke: spokes[k], corners: 0, solid_angle, moment, limits: [reach, 0.0] });
             }
             if reach < f32::INFINITY {
                 shared.set_crossing(edge, at(&self.point, lane), reach);

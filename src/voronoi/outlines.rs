@@ -338,7 +338,8 @@ impl Outlines {
             }
         }
         let solid_angle = walk.diagram.solid_angles[walk.name(site) as usize];
-        classes & SPECIAL == 0 && reach < f32::INFINITY && !is_thin(solid_angle, reach.into())
+        let are_few = self.edges.len() <= STEPS;
+        are_few && classes & SPECIAL == 0 && reach < f32::INFINITY && !is_thin(solid_angle, reach.into())
     }
 
     /// Adds the cell of `site` with the edges `around`.

@@ -9,7 +9,7 @@ use super::threads;
 /// Cells at a time.
 const CELLS: usize = 16;
 
-/// Most corners of a cell that is walked with others; cells of more are few.
+/// Most corners of a cell that is walked with others, and whose measures are sums over facets; cells of more are few.
 pub(super) const STEPS: usize = 16;
 
 /// So far on are the cells whose results are fetched ahead.

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::facets::{Share, Shares};
 use super::measure::is_thin;
-use super::spokes::{Spoke, may_be_thin};
+use super::spokes::{STEPS, Spoke, may_be_thin};
 
 /// The sums of each cell, to be used again.
 #[derive(Clone, Debug, Default)]
@@ -20,24 +20,28 @@ pub(super) struct Tally {
     pub solid_angle: f64,
     /// The largest of each of its shares' limits: infinite if doubles are not enough for a corner; zero if the horizon cuts it.
     limits: [f32; 2],
-    /// A corner of the cell.
+    /// A corner of the cell, and the number of them.
     first: Spoke,
+    corners: u32,
 }
 
 impl Tally {
-    const NOTHING: Self = Self { moment: DVec3::ZERO, solid_angle: 0.0, limits: [0.0, f32::NEG_INFINITY], first: 0 };
+    const NOTHING: Self =
+        Self { moment: DVec3::ZERO, solid_angle: 0.0, limits: [0.0, f32::NEG_INFINITY], first: 0, corners: 0 };
 
     /// Whether there is no such cell.
     #[inline(always)]
     pub fn is_nothing(&self) -> bool {
-        self.limits[1] == f32::NEG_INFINITY
+        self.corners == 0
     }
 
-    /// Whether the sums are the measures of the cell.
+    /// Whether the sums are the measures of the cell: not too many terms of them round.
     #[inline(always)]
     pub fn is_ordinary(&self) -> bool {
         let [reach, least] = self.limits;
-        reach < f32::INFINITY && !(may_be_thin(reach, -least) && is_thin(self.solid_angle, reach.into()))
+        self.corners as usize <= STEPS
+            && reach < f32::INFINITY
+            && !(may_be_thin(reach, -least) && is_thin(self.solid_angle, reach.into()))
     }
 }
 
@@ -65,5 +69,6 @@ impl Shares for Tallies {
         let larger = |k: usize| if share.limits[k] > tally.limits[k] { share.limits[k] } else { tally.limits[k] };
         tally.limits = [larger(0), larger(1)];
         tally.first = share.spoke;
+        tally.corners += share.corners;
     }
 }

@@ -6,7 +6,7 @@ pub(super) fn parts(sites: usize) -> usize {
 }
 
 /// More than processors have cores, so that none waits long for the last one.
-const PARTS: usize = 64;
+const PARTS: usize = 32;
 
 /// Calls `work` with the number of each part and the part.
 #[inline(always)]
