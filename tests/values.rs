@@ -3,7 +3,7 @@
 //! The values below are pinned. A change of one of them is a change for users and belongs under `Values` in the changelog.
 #![cfg(feature = "ilv")]
 
-use rand::SeedableRng;
+use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use steradian::{
     glam::DVec3,
@@ -39,6 +39,27 @@ fn diagrams_are_pinned() {
         [0x400c_7bde_96d2_c802, 0x3fed_43ec_611a_ea7a, 0x3ffc_ee39_f2dd_af21]
     );
     assert_eq!(bits(dome.vector_moments()[1]), [0xbfd3_8b08_407b_5a23, 0x3fe0_4a5a_4bca_b330, 0x3fe1_bc54_86a5_c2ac]);
+}
+
+/// So many sites that the feature `rayon` has them on all cores.
+#[test]
+fn large_diagrams_are_pinned() {
+    fn code(solid_angles: &[f64], moments: &[DVec3]) -> u64 {
+        let numbers = solid_angles.iter().copied().chain(moments.iter().flat_map(|moment| moment.to_array()));
+        numbers.fold(0, |code: u64, x| (code.rotate_left(5) ^ x.to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15))
+    }
+    let mut rng = Pcg64::seed_from_u64(40_000);
+    let mut site = || DVec3::from_array([0, 1, 2].map(|_| rng.random_range(-1.0..1.0)));
+    let sites: Vec<DVec3> = (0..40_000).map(|_| site()).collect();
+    let mut builder = voronoi::Builder::new();
+    let whole = builder.sphere(&sites).unwrap();
+    assert_eq!(code(whole.solid_angles(), whole.vector_moments()), 0xd769_9f99_274e_80d1);
+    let dome = builder.hemisphere(&sites, DIRECTIONS[0]).unwrap();
+    assert_eq!(code(dome.solid_angles(), dome.vector_moments()), 0x1e84_82a2_70a7_d314);
+    let measures = builder.measure_sphere(&sites).unwrap();
+    assert_eq!(code(measures.solid_angles(), measures.vector_moments()), 0xafd9_a1e3_5ce7_a8b1);
+    let measures = builder.measure_hemisphere(&sites, DIRECTIONS[0]).unwrap();
+    assert_eq!(code(measures.solid_angles(), measures.vector_moments()), 0x1e84_82a2_70a7_d314);
 }
 
 #[test]
