@@ -7,7 +7,7 @@ use super::hull::Facet;
 use super::order;
 
 /// The solid angles and vector moments of the cells of a Voronoi diagram, without their outlines, made by a
-/// [`Builder`](super::Builder) in three quarters of the time of a [`Diagram`]: weights of a quadrature over the sites, say.
+/// [`Builder`](super::Builder) in two thirds of the time of a [`Diagram`]: weights of a quadrature over the sites, say.
 ///
 /// On the sphere there is the dual, too, the Delaunay triangulation.
 ///

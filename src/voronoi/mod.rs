@@ -53,14 +53,18 @@
 //! The corners are the facets of the convex hull of the unit vectors, built site by site in a biased randomised order along
 //! a space-filling curve: expected time grows as n log n. Doubles with a bound of their error decide, then twofold numbers,
 //! then integers. Sites on one circle are sorted around it. Each facet adds to the cells of its three sites the quadrilaterals
-//! between site, corner and the middles of its edges, some facets side by side; a horizon cuts these at the edges that it
-//! crosses. Cells with corners that are not well shaped or farther than 37°, and thin ones, are measured corner by corner, in
-//! twofold numbers where they are small, sharp or thin.
+//! between site, corner and the middles of its edges, some facets side by side, and each edge that the horizon cuts what is
+//! between its middle, its two sites and the horizon. Cells with corners that are not well shaped or farther than 37°, of more
+//! than 16 edges, and thin ones are measured corner by corner, in twofold numbers where they are small, sharp or thin.
 //!
 //! Sites are numbered along the curve. Vertices take the place of the planes of the hull, in whose order they are, so that a
-//! million sites take 290 bytes each, results included. Measures included, a thousand sites take 0.3 µs each and a million
-//! 0.7 to 0.8 µs, up to twice that on grids of latitudes and longitudes, with four sites on a circle everywhere. Sites
-//! almost on one circle have sharp corners and thin cells only, which cost about 6 µs a site: docs/performance.md.
+//! million sites take 290 bytes each, results included. A thousand sites take 0.3 µs each and a million 0.7 to 0.8 µs;
+//! measures without outlines a third less. On grids of latitudes and longitudes, with four sites on a circle everywhere, it is up
+//! to twice that. Sites almost on one circle have sharp corners and thin cells only, which cost about 6 µs a site:
+//! docs/performance.md.
+//!
+//! With the feature `rayon` 32768 sites and more are sorted, loaded and measured on all cores, with the same bits. Insertion
+//! into the hull, half of the time, is one after another.
 //!
 //! # Not here
 //!

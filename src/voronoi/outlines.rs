@@ -1,8 +1,9 @@
-//! From the hull to the diagram: one walk along the curve measures the cells and writes down their outlines.
+//! From the hull to the diagram: the measures of all cells, and their outlines where they are wanted.
 //!
 //! # Model
 //! A cell's corners are the facets around its site, whose planes they replace. Ordinary cells are measured by their facets, in
-//! `facets`; others here, one by one.
+//! `facets`, and by the edges that the horizon cuts, in `horizon`; others here, one by one. One walk along the curve writes
+//! outlines down; measures alone are tallied along the curve and need no walk.
 
 use glam::DVec3;
 
