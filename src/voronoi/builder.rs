@@ -101,7 +101,7 @@ impl Builder {
         let sites = Sites::new(given, keys, &mut directions, rests);
         // The planes of the hull become the corners of the diagram, in place.
         core::mem::swap(&mut hull.planes, &mut diagram.vertices);
-        let shape = hull.build(sites, pole.map(|pole| pole.unit));
+        let shape = hull.build(sites);
         if let Ok(shape) = shape {
             outlines.build(want, shape, hull, sites, pole, diagram);
         }

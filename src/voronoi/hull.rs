@@ -139,18 +139,17 @@ impl Facet {
 }
 
 impl Hull {
-    /// Builds the hull of `sites`, which are in an order that keeps close ones together; it is the same for any `pole`, but
-    /// takes less time if that is the one of a hemisphere of sites.
+    /// Builds the hull of `sites`, which are in an order that keeps close ones together.
     ///
     /// # Errors
     /// [`Inconsistent`](VoronoiError::Inconsistent), which exact decisions exclude.
-    pub fn build(&mut self, sites: Sites<'_>, pole: Option<DVec3>) -> Result<Shape, VoronoiError> {
+    pub fn build(&mut self, sites: Sites<'_>) -> Result<Shape, VoronoiError> {
         self.facets.clear();
         self.planes.clear();
         self.ring.clear();
         self.twins.clear();
         self.buffers.flat.clear();
-        let start = match start(sites, pole) {
+        let start = match start(sites) {
             Start::Solid(start) => start,
             other => {
                 let Start::Circle(first, second, third) = other else {
@@ -258,7 +257,7 @@ mod tests {
         let (mut keys, mut units, mut rests) = (Vec::new(), Vec::new(), Vec::new());
         order::sort(given, &mut keys);
         let sites = Sites::new(given, &keys, &mut units, &mut rests);
-        let shape = hull.build(sites, None).unwrap();
+        let shape = hull.build(sites).unwrap();
         visit(hull, sites, shape);
     }
 

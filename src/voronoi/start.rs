@@ -16,13 +16,9 @@ pub(super) enum Start {
     Solid([u32; 4]),
 }
 
-/// Finds the first sites; they are the same with and without a unit vector `pole`.
-///
-/// The search is shorter if most sites are in the hemisphere of the pole.
-pub(super) fn start(sites: Sites<'_>, pole: Option<DVec3>) -> Start {
-    // Four sites with the origin deep within have one at a larger distance below any plane through it.
-    let is_shallow = pole.is_some_and(|pole| all(sites).all(|site| sites.unit(site).dot(pole) > -0.5 * DEEP));
-    if let Some(start) = if is_shallow { None } else { deep_start(sites) } {
+/// Finds the first sites.
+pub(super) fn start(sites: Sites<'_>) -> Start {
+    if let Some(start) = deep_start(sites) {
         return Start::Solid(start);
     }
     let first = 0;
@@ -118,36 +114,3 @@ const SAMPLE: usize = 50;
 
 /// The origin is the centre if it is this deep within the first four sites.
 const DEEP: f64 = 1.0 / 16.0;
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::voronoi::order;
-
-    #[test]
-    fn a_pole_changes_no_start() {
-        let mut shallow = 0;
-        for seed in 1..=600 {
-            // From hemispheres to spheres, about their poles.
-            let pole = DVec3::from_array([0.9, 2.3, 1.7].map(|turn| (turn * f64::from(seed)).sin())).normalize();
-            let lowest = -f64::from(seed % 30) / 29.0;
-            let at = |k: u32| DVec3::from_array([0.7, 1.9, 3.1].map(|turn| (turn * f64::from(k * 7 + seed)).sin()));
-            let site = |k: u32| {
-                let (v, height) = (at(k).reject_from(pole).normalize_or(pole.any_orthonormal_vector()), at(k).x.abs());
-                let height = lowest + (1.0 - lowest) * height;
-                v * (1.0 - height * height).max(0.0).sqrt() + pole * height
-            };
-            let given: Vec<DVec3> = (0..4 + seed % 211).map(site).collect();
-            let (mut keys, mut units, mut rests) = (Vec::new(), Vec::new(), Vec::new());
-            order::sort(&given, &mut keys);
-            let sites = Sites::new(&given, &keys, &mut units, &mut rests);
-            let [with, without] = [Some(pole), None].map(|pole| match start(sites, pole) {
-                Start::Solid(start) => Some(start),
-                _ => None,
-            });
-            assert_eq!(with, without, "{seed}");
-            shallow += usize::from(all(sites).all(|site| sites.unit(site).dot(pole) > -0.5 * DEEP));
-        }
-        assert!((20..400).contains(&shallow), "{shallow} starts were known to be shallow");
-    }
-}

@@ -15,7 +15,7 @@ fn with_hull(count: usize, visit: impl FnOnce(Hull, Sites<'_>)) {
     let (mut keys, mut units, mut rests, mut hull) = (Vec::new(), Vec::new(), Vec::new(), Hull::default());
     order::sort(&given, &mut keys);
     let sites = Sites::new(&given, &keys, &mut units, &mut rests);
-    hull.build(sites, None).expect("sites are consistent");
+    hull.build(sites).expect("sites are consistent");
     visit(hull, sites);
 }
 

@@ -40,7 +40,7 @@ fn with_hull(count: usize, lowest: f64, visit: impl FnOnce(Hull, Sites<'_>, Ray)
     let (mut keys, mut units, mut rests, mut hull) = (Vec::new(), Vec::new(), Vec::new(), Hull::default());
     order::sort(&given, &mut keys);
     let sites = Sites::new(&given, &keys, &mut units, &mut rests);
-    hull.build(sites, Some(pole.unit)).expect("sites are consistent");
+    hull.build(sites).expect("sites are consistent");
     let mut batches = Batches::default();
     batches.reset(count);
     batches.add_all(&mut hull, sites, Some(pole.unit), &mut List::default());
