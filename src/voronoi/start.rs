@@ -64,15 +64,10 @@ pub(super) fn centre([a, b, c, d]: [DVec3; 4]) -> Option<DVec3> {
     (!deep).then(|| 0.25 * ((a + b) + (c + d)))
 }
 
-/// The sites of the sample.
-fn all(sites: Sites<'_>) -> impl Iterator<Item = u32> + use<> {
-    (0..sites.len() as u32).step_by(sites.len().div_ceil(SAMPLE))
-}
-
-/// The one of the sample with the largest `measure`.
+/// The one of some sites with the largest `measure`.
 fn sample(sites: Sites<'_>, measure: impl Fn(u32) -> f64) -> u32 {
     let mut best = (0, f64::NEG_INFINITY);
-    for site in all(sites) {
+    for site in (0..sites.len() as u32).step_by(sites.len().div_ceil(SAMPLE)) {
         let value = measure(site);
         if value > best.1 {
             best = (site, value);
