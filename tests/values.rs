@@ -41,13 +41,15 @@ fn diagrams_are_pinned() {
     assert_eq!(bits(dome.vector_moments()[1]), [0xbfd3_8b08_407b_5a23, 0x3fe0_4a5a_4bca_b330, 0x3fe1_bc54_86a5_c2ac]);
 }
 
+/// Of the bits of some measures.
+fn code(solid_angles: &[f64], moments: &[DVec3]) -> u64 {
+    let numbers = solid_angles.iter().copied().chain(moments.iter().flat_map(|moment| moment.to_array()));
+    numbers.fold(0, |code: u64, x| (code.rotate_left(5) ^ x.to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15))
+}
+
 /// So many sites that the feature `rayon` has them on all cores.
 #[test]
 fn large_diagrams_are_pinned() {
-    fn code(solid_angles: &[f64], moments: &[DVec3]) -> u64 {
-        let numbers = solid_angles.iter().copied().chain(moments.iter().flat_map(|moment| moment.to_array()));
-        numbers.fold(0, |code: u64, x| (code.rotate_left(5) ^ x.to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15))
-    }
     let mut rng = Pcg64::seed_from_u64(40_000);
     let mut site = || DVec3::from_array([0, 1, 2].map(|_| rng.random_range(-1.0..1.0)));
     let sites: Vec<DVec3> = (0..40_000).map(|_| site()).collect();
@@ -60,6 +62,19 @@ fn large_diagrams_are_pinned() {
     assert_eq!(code(measures.solid_angles(), measures.vector_moments()), 0xafd9_a1e3_5ce7_a8b1);
     let measures = builder.measure_hemisphere(&sites, DIRECTIONS[0]).unwrap();
     assert_eq!(code(measures.solid_angles(), measures.vector_moments()), 0x1e84_82a2_70a7_d314);
+}
+
+/// Facets of all sizes, which take different numbers of terms, are side by side in the same way on any number of cores.
+#[test]
+fn large_diagrams_of_all_densities_are_pinned() {
+    let mut rng = Pcg64::seed_from_u64(40_001);
+    let mut site = || {
+        let [x, y, near] = [0, 1, 2].map(|_| rng.random_range(-2.0..2.0));
+        DVec3::new(x * near, y * near, 1.0)
+    };
+    let sites: Vec<DVec3> = (0..40_000).map(|_| site()).collect();
+    let whole = voronoi::sphere(&sites).unwrap();
+    assert_eq!(code(whole.solid_angles(), whole.vector_moments()), 0x4d73_6d07_90b3_6bda);
 }
 
 #[test]

@@ -210,6 +210,21 @@ proptest! {
     }
 }
 
+/// Sums over so many facets are not enough, with outlines or without, though all corners are for doubles.
+#[test]
+fn cut_cells_of_many_edges_have_the_same_measures_without_outlines() {
+    for count in 14..24 {
+        let at = |k: i32| {
+            let (sine, cosine) = (TAU * (f64::from(k) + 0.25) / f64::from(count)).sin_cos();
+            DVec3::new(0.3 * cosine, 0.3 * sine, 1.0)
+        };
+        let sites: Vec<DVec3> = (0..count).map(at).chain([DVec3::Z]).collect();
+        for pole in [DVec3::X, DVec3::new(1.0, -0.3, 0.05), DVec3::new(0.1, -1.0, -0.1)] {
+            invariants::check(&sites, Some(pole));
+        }
+    }
+}
+
 /// A vector of integers.
 type Integers = [i64; 3];
 

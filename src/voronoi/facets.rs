@@ -14,6 +14,8 @@
 //! # Guarantees
 //! d, e and f are right relatively, and n is taken of the two shortest of them, so that small cells keep relative accuracy.
 
+use core::ops::Range;
+
 use glam::DVec3;
 
 use super::hull::{ABOVE, BELOW, Facet, Hull, SPECIAL, mark, next};
@@ -183,6 +185,8 @@ pub(super) trait Shares {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Batches {
     batches: Vec<Batch>,
+    /// Which of the new facets each batch has.
+    ranges: Vec<Range<usize>>,
     /// The facets of all batches, where they are in the order in which they lie.
     new: Vec<u32>,
 }
@@ -195,18 +199,29 @@ impl Batches {
 
     /// Computes the corners of the facets `new` in the place of their planes, marks what is known of them, and adds to `shares`
     /// what those of class `ABOVE` add to the cells of their sites; nothing for others.
+    ///
+    /// No batch goes beyond one of the `ends`, the last of which is that of `new`: the terms of a batch's series, and with
+    /// them the last bits, depend on all facets in it.
     pub fn add(
         &mut self,
         new: &[u32],
+        ends: &[usize],
         hull: &mut Hull,
         sites: Sites<'_>,
         pole: Option<DVec3>,
         shares: &mut impl Shares,
     ) {
-        let part = |number: usize| new[BATCH * number..].chunks(BATCH).next().unwrap_or_default();
-        for first in (0..new.len().div_ceil(BATCH)).step_by(self.batches.len()) {
-            let count = self.batches.len().min(new.len().div_ceil(BATCH) - first);
-            let (batches, facets) = (&mut self.batches[..count], &hull.facets[..]);
+        let Self { batches, ranges, .. } = self;
+        ranges.clear();
+        let mut start = 0;
+        for &end in ends {
+            ranges.extend((start..end).step_by(BATCH).map(|first| first..end.min(first + BATCH)));
+            start = end;
+        }
+        let part = |number: usize| &new[ranges[number].clone()];
+        for first in (0..ranges.len()).step_by(batches.len()) {
+            let count = batches.len().min(ranges.len() - first);
+            let (batches, facets) = (&mut batches[..count], &hull.facets[..]);
             threads::each_part(batches, |number, batch| {
                 dispatch::run(Compute { batch, new: part(first + number), facets, sites, pole });
             });
@@ -223,7 +238,7 @@ impl Batches {
         for start in (0..count).step_by(BATCH * self.batches.len()) {
             new.clear();
             new.extend(start as u32..count.min(start + BATCH * self.batches.len()) as u32);
-            self.add(&new, hull, sites, pole, shares);
+            self.add(&new, &[new.len()], hull, sites, pole, shares);
         }
         self.new = new;
     }

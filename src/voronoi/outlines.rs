@@ -202,7 +202,8 @@ impl Outlines {
                 let Walk { hull, sites, pole, diagram } = walk;
                 let shares = &mut ByName { sites: *sites, diagram };
                 let pole = pole.map(|pole| pole.unit);
-                self.batches.add(self.spokes.met(), hull, *sites, pole, shares);
+                let (met, ends) = self.spokes.met();
+                self.batches.add(met, ends, hull, *sites, pole, shares);
             }
             for cell in 0..count {
                 if !self.add_ordinary_cell(cell, walk) {

@@ -37,8 +37,9 @@ pub(super) struct Spokes {
     len: usize,
     /// Those of a cell with more than a group has room for.
     many: Vec<Spoke>,
-    /// The facets that no cell has met before.
+    /// The facets that no cell has met before, and where those of each group end.
     met: Vec<u32>,
+    ends: Vec<usize>,
 }
 
 /// Cells that are walked in turns.
@@ -85,9 +86,10 @@ impl Spokes {
 
     /// Goes on to the next cells; returns the number of them. `MEETS`: and sets `met`.
     pub fn next<const MEETS: bool>(&mut self, facets: &mut [Facet]) -> usize {
-        let Self { firsts, next, groups, len, met, .. } = self;
+        let Self { firsts, next, groups, len, met, ends, .. } = self;
         *len = 0;
         met.clear();
+        ends.clear();
         for group in groups {
             let mut count = 0;
             while count < CELLS && *next < firsts.len() {
@@ -99,6 +101,7 @@ impl Spokes {
                 *next += 1;
             }
             group.walk::<MEETS>(count, facets, met);
+            ends.push(met.len());
             *len += count;
         }
         *len
@@ -140,9 +143,9 @@ impl Spokes {
         }
     }
 
-    /// The facets that were not met before.
-    pub fn met(&self) -> &[u32] {
-        &self.met
+    /// The facets that were not met before, and where those of each group end.
+    pub fn met(&self) -> (&[u32], &[usize]) {
+        (&self.met, &self.ends)
     }
 }
 

@@ -81,7 +81,7 @@ fn shares_of_a_facet_sum_to_its_solid_angle_and_its_corner_is_as_far_from_all_si
             diagram.reset(None, count);
             let tested = hull.facets.len().min(10_000);
             for f in 0..tested as u32 {
-                batches.add(&[f], &mut hull, sites, None, &mut ByName { sites, diagram: &mut diagram });
+                batches.add(&[f], &[1], &mut hull, sites, None, &mut ByName { sites, diagram: &mut diagram });
                 let facet = hull.facets[f as usize];
                 let [a, b, c] = facet.sites.map(|site| sites.unit(site));
                 let shares: f64 = (0..3).map(|k| batches.batches[0].sums[k][3][0]).sum();
