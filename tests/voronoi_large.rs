@@ -178,22 +178,30 @@ fn tens_of_thousands_of_sites_and_some_cells_of_many_corners_are_valid() {
     invariants::check(&sites, Some(DVec3::new(0.48, 0.6, 0.64)));
 }
 
-/// So many sites are measured in another order with outlines than without.
+/// So many sites of a sphere are measured in another order with outlines than without.
 #[test]
 fn measures_without_outlines_are_those_of_the_diagram() {
-    let (mut rng, mut builder) = (seeds::rng(8), Builder::new());
+    let (mut rng, mut builder, allowed) = (seeds::rng(8), Builder::new(), bound("permuted", "*"));
     for kind in [Kind::Uniform, Kind::UpperHalf] {
         let sites = sites::make(kind, 40_000, &mut rng);
-        let pole = sites::direction(&mut rng);
-        let dome = voronoi::hemisphere(&sites, pole).expect("sites are valid");
-        assert_eq!(dome.validate(), Ok(()));
-        let measured = builder.measure_hemisphere(&sites, pole).expect("sites are valid");
-        let allowed = bound("permuted", "*");
-        for (i, cell) in dome.cells().enumerate() {
-            let (got, want) = (measured.solid_angles()[i], cell.solid_angle());
-            assert!((got - want).abs() <= allowed * want, "{kind:?}, cell {i}: got {got}, want {want}");
-            let (got, want) = (measured.vector_moments()[i], cell.vector_moment());
-            assert!((got - want).length() <= allowed, "{kind:?}, cell {i}: got {got}, want {want}");
+        for pole in [None, Some(sites::direction(&mut rng))] {
+            let whole = match pole {
+                None => voronoi::sphere(&sites),
+                Some(pole) => voronoi::hemisphere(&sites, pole),
+            };
+            let whole = whole.expect("sites are valid");
+            assert_eq!(whole.validate(), Ok(()));
+            let measures = match pole {
+                None => builder.measure_sphere(&sites),
+                Some(pole) => builder.measure_hemisphere(&sites, pole),
+            };
+            let measures = measures.expect("sites are valid");
+            for (i, cell) in whole.cells().enumerate() {
+                let (got, want) = (measures.solid_angles()[i], cell.solid_angle());
+                assert!((got - want).abs() <= allowed * want, "{kind:?}, cell {i}: got {got}, want {want}");
+                let (got, want) = (measures.vector_moments()[i], cell.vector_moment());
+                assert!((got - want).length() <= allowed, "{kind:?}, cell {i}: got {got}, want {want}");
+            }
         }
     }
 }

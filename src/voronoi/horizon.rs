@@ -38,11 +38,11 @@ const STEEP: f64 = 0.25;
 const SHORT: f64 = 1.0 / (1u64 << 20) as f64;
 
 /// And those that meet it at a larger sine from the sites.
-const WIDE: f64 = 0.8;
+pub(super) const WIDE: f64 = 0.8;
 
 /// So many terms of the arctangent's series leave less than 2⁻⁵⁶ of the first up to `WIDE`, for arcs and for areas.
-const ARC: usize = 26;
-const AREA: usize = 13;
+pub(super) const ARC: usize = 26;
+pub(super) const AREA: usize = 13;
 
 /// Some edges that go below the horizon.
 #[derive(Clone, Debug)]

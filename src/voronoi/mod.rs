@@ -28,7 +28,7 @@
 //! 5. The order of the sites changes neighbours not at all and measures in the last bits only; a hemisphere and the
 //!    opposite one make the sphere: tests/voronoi_ownership.rs.
 //! 6. A [`Locator`] names the nearest site, exactly: tests/voronoi_nearest.rs.
-//! 7. A warm [`Builder`] does not allocate: tests/voronoi_allocation.rs.
+//! 7. A warm [`Builder`] does not allocate, but for what `rayon` does: tests/voronoi_allocation.rs.
 //! 8. No input panics or hangs, and no number of a diagram is NaN.
 //! 9. [`Measures`] without outlines are those of the diagram, and their triangles are its dual: tests/invariants/voronoi.rs.
 //!
@@ -58,8 +58,8 @@
 //! than 16 edges, and thin ones are measured corner by corner, in twofold numbers where they are small, sharp or thin.
 //!
 //! Sites are numbered along the curve. Vertices take the place of the planes of the hull, in whose order they are, so that a
-//! million sites take 290 bytes each, results included. A thousand sites take 0.3 µs each and a million 0.7 to 0.8 µs;
-//! measures without outlines a third less. On grids of latitudes and longitudes, with four sites on a circle everywhere, it is up
+//! million sites take 290 bytes each, results included, measures without outlines a little less. A thousand sites take 0.3 µs
+//! each and a million 0.7 to 0.8 µs; measures alone a third less. On grids of latitudes and longitudes, with four sites on a circle everywhere, it is up
 //! to twice that. Sites almost on one circle have sharp corners and thin cells only, which cost about 6 µs a site:
 //! docs/performance.md.
 //!
@@ -119,7 +119,8 @@ const MANY: usize = 1 << 15;
 
 /// The Voronoi diagram of `sites` on the whole sphere; its cells sum to 4π.
 ///
-/// For many diagrams one after another, a [`Builder`] does not allocate anew; for solid angles and moments alone it takes less time.
+/// For many diagrams one after another, a [`Builder`] does not allocate anew; it takes less time for solid angles and moments
+/// alone.
 ///
 /// # Shapes
 ///

@@ -133,7 +133,9 @@ impl Outlines {
             Want::Outlines if pole.is_some() || self.shared.has_flats() => {
                 self.shared.renumber(&hull.facets, &mut hull.planes, &mut diagram.vertex_indices);
             }
-            Want::Measures if pole.is_none() && self.shared.has_flats() => self.shared.complete(&hull.facets, &mut hull.planes),
+            Want::Measures if pole.is_none() && self.shared.has_flats() => {
+                self.shared.complete(&hull.facets, &mut hull.planes);
+            }
             _ => {}
         }
     }

@@ -68,6 +68,7 @@ const COEFFICIENTS: [f64; 14] = {
 
 #[cfg(test)]
 mod tests {
+    use super::super::horizon;
     use super::*;
 
     #[test]
@@ -77,8 +78,8 @@ mod tests {
             let near =
                 |got: f64, want: f64| assert!((got - want).abs() <= 4.0 * f64::EPSILON * want, "{t}: {got}, {want}");
             if t <= 0.5 {
-                near(arctangent::<26>(t), t.atan());
-                assert_eq!(arctangent::<26>(-t), -arctangent::<26>(t));
+                near(arctangent::<{ horizon::ARC }>(t), t.atan());
+                assert_eq!(arctangent::<{ horizon::ARC }>(-t), -arctangent::<{ horizon::ARC }>(t));
             }
             if t < 0.74 {
                 let half = t.sqrt().asin();
@@ -105,6 +106,6 @@ mod tests {
         check::<7, 4>(1.0 / 64.0);
         check::<11, 6>(1.0 / 8.0);
         check::<17, 9>(0.36);
-        check::<26, 13>(0.64);
+        check::<{ horizon::ARC }, { horizon::AREA }>(horizon::WIDE * horizon::WIDE);
     }
 }

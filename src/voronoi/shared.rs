@@ -1,4 +1,5 @@
-//! Corners that are one though they were found more than once: where more than three cells meet, and on the horizon.
+//! Corners that are one though they were found more than once: where more than three cells meet, and on the horizon, where
+//! edges cross it once for both of their cells.
 
 use glam::DVec3;
 

@@ -1,7 +1,8 @@
 //! The corners of cells in their order, from facet to facet around a site, some cells at a time.
 //!
 //! # Model
-//! A step around a site waits for the one before, but not for those around other sites, so that these are taken in turns.
+//! A step around a site waits for the one before, but not for those around other sites, so that these are taken in turns: a
+//! group of cells, and some groups at a time for threads. The facets that a group is the first to meet are to be measured next.
 
 use super::hull::{ABOVE, BELOW, FLATS, Facet, SPECIAL, next, previous};
 use super::threads;

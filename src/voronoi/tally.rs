@@ -1,5 +1,5 @@
-//! What facets add up to, cell by cell along the curve: enough for the measures of ordinary cells, whose outlines nobody asks
-//! for.
+//! What facets, and edges that the horizon cuts, add up to, cell by cell along the curve: the measures of ordinary cells, whose
+//! outlines nobody asks for.
 
 use glam::DVec3;
 
