@@ -163,6 +163,28 @@ impl Circle {
     }
 }
 
+/// The solid angle of the right-angled triangle of a site, the middle of an edge and the corner, and half of y v / |v|; of
+/// |v|² = `square`, cot γ, v and cos R.
+#[inline(always)]
+fn right_angled<const ARC: usize, const AREA: usize>(
+    square: f64,
+    cotangent: f64,
+    v: DVec3,
+    cosine: f64,
+) -> (f64, DVec3) {
+    // sin² and cos of θ/2, and 1 + cos y times that, for cos R = cos y cos θ/2.
+    let square = 0.25 * square;
+    let of_middle = (1.0 - square).sqrt();
+    let (a, b) = (1.0 + of_middle, of_middle + cosine);
+    let inverse = 1.0 / (a * b);
+    // tan(y/2) over sin(θ/2), and y over twice that.
+    let tangent = cotangent * (a * inverse);
+    let arc = tangent * arctangent_over::<ARC>(square * (tangent * tangent));
+    let product = square * (b * inverse) * tangent;
+    let area = product * arctangent_over::<AREA>(product * product);
+    (2.0 * area, v * (0.5 * arc))
+}
+
 /// What a facet adds to the cell of one of its sites.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Share {
@@ -355,22 +377,11 @@ impl Batch {
     #[inline(always)]
     fn compute_shares_by<const ARC: usize, const AREA: usize>(&mut self, count: usize) {
         for k in 0..count {
-            let cosine = self.cosine[k];
-            // The solid angle of a triangle, and half of y v / |v|.
-            let share = |edge: usize| {
-                // sin² and cos of θ/2, and 1 + cos y times that, for cos R = cos y cos θ/2.
-                let square = 0.25 * self.squares[edge][k];
-                let of_middle = (1.0 - square).sqrt();
-                let (a, b) = (1.0 + of_middle, of_middle + cosine);
-                let inverse = 1.0 / (a * b);
-                // tan(y/2) over sin(θ/2), and y over twice that.
-                let tangent = self.cotangents[edge][k] * (a * inverse);
-                let arc = tangent * arctangent_over::<ARC>(square * (tangent * tangent));
-                let product = square * (b * inverse) * tangent;
-                let area = product * arctangent_over::<AREA>(product * product);
-                (2.0 * area, at(&self.edges[edge], k) * (0.5 * arc))
-            };
-            let [(at_a, f), (at_b, e), (at_c, d)] = [share(0), share(1), share(2)];
+            let (cosine, squares, cotangents) = (self.cosine[k], at(&self.squares, k), at(&self.cotangents, k));
+            let [f, e, d] = [at(&self.edges[0], k), at(&self.edges[1], k), at(&self.edges[2], k)];
+            let (at_a, f) = right_angled::<ARC, AREA>(squares.x, cotangents.x, f, cosine);
+            let (at_b, e) = right_angled::<ARC, AREA>(squares.y, cotangents.y, e, cosine);
+            let (at_c, d) = right_angled::<ARC, AREA>(squares.z, cotangents.z, d, cosine);
             let mut set = |site: usize, moment: DVec3, solid_angle: f64| {
                 let [x, y, z, last] = &mut self.sums[site];
                 (x[k], y[k], z[k], last[k]) = (moment.x, moment.y, moment.z, solid_angle);
