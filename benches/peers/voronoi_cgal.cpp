@@ -1,5 +1,5 @@
 // CGAL's Delaunay_triangulation_on_sphere_2; solid angles of the cells by fans of its circumcentres, in doubles, for CGAL
-// has none. A fifth argument is the number of sets of sites in the file, each triangulated in turn: times are sums, and there
+// has none. A fourth argument is the number of sets of sites in the file, each triangulated in turn: times are sums, and there
 // are no cells then. Called by voronoi.sh.
 #include <CGAL/Delaunay_triangulation_on_sphere_2.h>
 #include <CGAL/Delaunay_triangulation_on_sphere_traits_2.h>

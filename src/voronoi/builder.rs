@@ -14,7 +14,7 @@ use super::sites::Sites;
 /// Most sites of a diagram, whose cells have fewer than 6 edges a site and 2 on the horizon: offsets are `u32`.
 const MOST_SITES: usize = (u32::MAX / 16) as usize;
 
-/// Builds diagrams one after another; allocates only where a diagram is larger than all before.
+/// Builds diagrams one after another; allocates only where a diagram is larger than all before of its kind.
 ///
 /// # Examples
 ///

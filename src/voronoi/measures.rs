@@ -7,7 +7,7 @@ use super::hull::Facet;
 use super::order;
 
 /// The solid angles and vector moments of the cells of a Voronoi diagram, without their outlines, made by a
-/// [`Builder`](super::Builder) in two thirds of the time of a [`Diagram`]: weights of a quadrature over the sites, say.
+/// [`Builder`](super::Builder) in three quarters of the time of a [`Diagram`]: weights of a quadrature over the sites, say.
 ///
 /// On the sphere there is the dual, too, the Delaunay triangulation.
 ///
@@ -66,7 +66,7 @@ impl<'a> Measures<'a> {
     }
 
     /// The corner in which the three cells of each triangle meet, in the order of the [`triangles`](Self::triangles): the centre
-    /// of its circle, a unit vector.
+    /// of its circle, a unit vector. As many as triangles, so none on a hemisphere.
     ///
     /// # Accuracy
     ///

@@ -59,8 +59,8 @@
 //!
 //! Sites are numbered along the curve. Vertices take the place of the planes of the hull, in whose order they are, so that a
 //! million sites take 290 bytes each, results included, measures without outlines a little less. A thousand sites take 0.3 µs
-//! each and a million 0.7 to 0.8 µs; measures alone a third less. On grids of latitudes and longitudes, with four sites on a circle everywhere, it is up
-//! to twice that. Sites almost on one circle have sharp corners and thin cells only, which cost about 6 µs a site:
+//! each and a million 0.7 to 0.8 µs; measures alone a quarter less. On grids of latitudes and longitudes, with four sites on a circle everywhere, it is up
+//! to twice that. Sites almost on one circle have sharp corners and thin cells only, which cost about 5 µs a site:
 //! docs/performance.md.
 //!
 //! With the feature `rayon` 32768 sites and more are sorted, loaded and measured on all cores, with the same bits. Insertion
